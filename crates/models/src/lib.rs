@@ -1,0 +1,27 @@
+//! Models of SLAM in an environment that moves and deforms: the state of eq. (1), the process
+//! model of eq. (2), the measurements of eqs. (3)–(5) and (10), and the Jacobians of each.
+//!
+//! Everything is a fixed-size block: one pose, one feature. The joint state of all features, and its
+//! covariance, live in the estimator.
+//!
+//! Units are centimetres and radians. Two frames appear: *world*, fixed, and *body*, the
+//! robot's; R(Θ) takes body vectors to the world.
+
+mod angles;
+mod euler;
+mod measurement;
+mod motion;
+mod pose;
+mod sensor;
+mod state;
+
+pub use angles::wrap_angle;
+pub use euler::EulerAngles;
+pub use measurement::{
+    FeatureMeasurementJacobians, feature_measurement, feature_measurement_jacobians,
+    structure_measurement,
+};
+pub use motion::{Control, MotionJacobian, motion_jacobian, move_pose, predicted_pose};
+pub use pose::Pose;
+pub use sensor::Sensor;
+pub use state::{FeatureId, POSE_DIM, State, feature_offset, state_dim};
