@@ -1,1 +1,42 @@
-//! Placeholder.
+//! Planners for active SLAM in deformable environments: which control the robot should take next.
+//!
+//! Every planner stands behind the trait [`Planner`] and chooses from the same safe actions:
+//!
+//! | planner | rule | in the paper |
+//! | --- | --- | --- |
+//! | [`PredeterminedPlanner`] | the same control at every step | Section IV |
+//! | [`LocalPlanner`] | smallest trace of the next covariance | III-B, eqs. (6), (7) |
+//! | [`GlobalPlanner`] | nearest to the current viewpoint | III-C, Algorithm 2, eqs. (8), (9) |
+//! | [`CombinedPlanner`] | smallest trace among those nearest to the viewpoint | III-D |
+//!
+//! A planner sees the belief and the known motion of the object, never the truth, a random number
+//! generator or a clock: the draws of Algorithm 2 are handed in. Units are cm and radians.
+
+mod action;
+mod combined;
+mod error;
+mod global;
+mod goal;
+mod local;
+mod model;
+mod planner;
+mod predetermined;
+mod safety;
+mod scoring;
+mod viewpoint;
+
+pub use action::ActionSet;
+pub use combined::{CombinedPlanner, Nearest};
+pub use error::PlanningError;
+pub use global::GlobalPlanner;
+pub use goal::Goals;
+pub use local::LocalPlanner;
+pub use model::PlanningModel;
+pub use planner::{Decision, Planner, Situation};
+pub use predetermined::PredeterminedPlanner;
+pub use safety::{Candidate, SafeActions};
+pub use scoring::{ActionScorer, PlanningNoise};
+pub use viewpoint::{
+    ViewpointGrid, ViewpointPath, ViewpointSampling, features_seen_from, features_seen_in_pose,
+    sample_viewpoints,
+};

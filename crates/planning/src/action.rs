@@ -1,0 +1,83 @@
+//! The set U of candidate actions.
+
+use adslam_models::{Control, EulerAngles};
+use nalgebra::Vector3;
+
+/// The controls that the robot may choose from, and the attitudes that it must keep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActionSet {
+    controls: Vec<Control>,
+    max_roll: f64,
+    max_pitch: f64,
+}
+
+impl ActionSet {
+    /// Every combination of the increments `roll`, `pitch` and `yaw`, radians, with the
+    /// translations v = R(Ω) (dx, 0, dz), cm: the robot moves in the plane that it will face.
+    ///
+    /// The order, which breaks ties, is that of nested loops with roll outermost and dz innermost. An
+    /// action is admissible while the predicted |roll| ≤ `max_roll` and |pitch| ≤ `max_pitch`, radians.
+    #[must_use]
+    pub fn grid(
+        [roll, pitch, yaw]: [&[f64]; 3],
+        [dx, dz]: [&[f64]; 2],
+        max_roll: f64,
+        max_pitch: f64,
+    ) -> Self {
+        let mut controls = Vec::new();
+        for &roll in roll {
+            for &pitch in pitch {
+                for &yaw in yaw {
+                    let angles = EulerAngles::new(roll, pitch, yaw);
+                    let rotation = angles.rotation();
+                    for &dx in dx {
+                        for &dz in dz {
+                            controls.push(Control {
+                                rotation: angles.to_vector(),
+                                translation: rotation * Vector3::new(dx, 0.0, dz),
+                            });
+                        }
+                    }
+                }
+            }
+        }
+        Self {
+            controls,
+            max_roll,
+            max_pitch,
+        }
+    }
+
+    /// All actions, in order.
+    #[must_use]
+    pub fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    /// Whether an orientation is within the limits of roll and pitch.
+    #[must_use]
+    pub fn admits(&self, orientation: EulerAngles) -> bool {
+        orientation.roll.abs() <= self.max_roll && orientation.pitch.abs() <= self.max_pitch
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_papers_set_has_675_actions() {
+        let third = [-30f64, 0.0, 30.0].map(f64::to_radians);
+        let yaw = [-45f64, -22.5, 0.0, 22.5, 45.0].map(f64::to_radians);
+        let (dx, dz) = ([-0.2, -0.1, 0.0, 0.1, 0.2], [-0.5, 0.0, 0.5]);
+        let limit = 30f64.to_radians();
+        let actions = ActionSet::grid([&third, &third, &yaw], [&dx, &dz], limit, limit);
+        assert_eq!(actions.controls().len(), 675);
+        // The first as the public code computes it.
+        let v = actions.controls()[0].translation;
+        let expected = Vector3::new(-0.146_158_073_511_847_15, -0.207_395_317_081_426_58, -0.475);
+        assert!((v - expected).norm() < 1e-15);
+        assert!(actions.admits(EulerAngles::new(limit, -limit, 3.0)));
+        assert!(!actions.admits(EulerAngles::new(limit + 1e-9, 0.0, 0.0)));
+    }
+}

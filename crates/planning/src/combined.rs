@@ -1,0 +1,84 @@
+//! The combined planner, Section III-D.
+
+use crate::goal::nearest_first;
+use crate::local::decide_by_trace;
+use crate::{Decision, Goals, Planner, PlanningError, PlanningNoise, SafeActions, Situation};
+
+/// nᵤ, how many of the safe actions nearest to the goal are scored.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Nearest {
+    /// This many; 1 gives the global planner, the size of the action set the local one.
+    Count(usize),
+    /// This share of the safe actions, rounded down, at least one.
+    Fraction(f64),
+}
+
+impl Nearest {
+    /// nᵤ for a number of safe actions.
+    #[must_use]
+    pub fn of(self, safe: usize) -> usize {
+        let wanted = match self {
+            Self::Count(count) => count,
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a share of a count; a cast saturates"
+            )]
+            Self::Fraction(fraction) => (fraction * safe as f64).floor() as usize,
+        };
+        wanted.clamp(1, safe.max(1))
+    }
+}
+
+/// Takes, of the safe actions nearest to the current viewpoint, the one with the smallest trace.
+#[derive(Clone, Debug)]
+pub struct CombinedPlanner {
+    goals: Goals,
+    nearest: Nearest,
+    noise: PlanningNoise,
+}
+
+impl CombinedPlanner {
+    /// A planner that visits these viewpoints and scores the `nearest` actions.
+    #[must_use]
+    pub const fn new(goals: Goals, nearest: Nearest, noise: PlanningNoise) -> Self {
+        Self {
+            goals,
+            nearest,
+            noise,
+        }
+    }
+}
+
+impl Planner for CombinedPlanner {
+    fn decide(&mut self, situation: &Situation<'_>) -> Result<Decision, PlanningError> {
+        let goal = self
+            .goals
+            .next_from(&situation.belief.state.pose.position);
+        let (now, after) = situation.surfaces()?;
+        let safe = SafeActions::find(situation, &now, &after)?;
+        let nearest = nearest_first(safe.candidates(), &goal.1);
+        let kept = nearest
+            .into_iter()
+            .take(self.nearest.of(safe.candidates().len()));
+        let decision = decide_by_trace(situation, &self.noise, &after, &safe, kept)?;
+        Ok(Decision {
+            goal: Some(goal),
+            ..decision
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_are_rounded_down_to_at_least_one() {
+        assert_eq!(Nearest::Fraction(0.1).of(258), 25);
+        assert_eq!(Nearest::Fraction(0.1).of(5), 1);
+        assert_eq!(Nearest::Fraction(1.0).of(258), 258);
+        assert_eq!(Nearest::Count(1).of(258), 1);
+        assert_eq!(Nearest::Count(675).of(258), 258);
+    }
+}

@@ -1,0 +1,34 @@
+//! Why no decision could be made.
+
+use adslam_estimator::EstimatorError;
+use adslam_surface::SurfaceError;
+use thiserror::Error;
+
+/// A decision or a viewpoint set that could not be made.
+#[derive(Debug, Error)]
+pub enum PlanningError {
+    /// The filter's mathematics failed.
+    #[error(transparent)]
+    Estimator(#[from] EstimatorError),
+    /// The estimated features do not make a surface.
+    #[error("the surface of the estimated features cannot be used: {0}")]
+    Surface(#[from] SurfaceError),
+    /// The robot has nothing to choose from.
+    #[error("the set of actions is empty; give at least one value for each of its lists")]
+    NoActions,
+    /// A grid of viewpoints without a usable point.
+    #[error(
+        "none of the {candidates} viewpoint candidates lies outside the object; widen the grid or \
+         shrink the block that it leaves out"
+    )]
+    NoViewpoints {
+        /// How many candidates the grid has.
+        candidates: usize,
+    },
+    /// Too fine a grid.
+    #[error("the grid of viewpoints has more than {limit} points; make it coarser or smaller")]
+    TooManyViewpoints {
+        /// The most that are allowed.
+        limit: usize,
+    },
+}

@@ -1,0 +1,77 @@
+//! The trait that every planner implements.
+
+use adslam_estimator::Belief;
+use adslam_models::Control;
+use adslam_surface::Surface;
+use nalgebra::{Point3, Vector3};
+
+use crate::{PlanningError, PlanningModel};
+
+/// What is known when the robot has to choose its next control.
+#[derive(Clone, Copy, Debug)]
+pub struct Situation<'a> {
+    /// The belief at step n.
+    pub belief: &'a Belief,
+    /// What is known of each feature's motion from step n to n + 1, cm, world.
+    pub feature_motion: &'a [Vector3<f64>],
+    /// The robot, its sensor and the object.
+    pub model: &'a PlanningModel,
+}
+
+impl Situation<'_> {
+    /// The surface of the estimated features before and after their known motion.
+    ///
+    /// # Errors
+    /// Estimates that do not fit the surface's faces or are not finite.
+    pub fn surfaces(&self) -> Result<(Surface, Surface), PlanningError> {
+        let topology = &self.model.topology;
+        let mut moved = self.belief.state.clone();
+        let now = Surface::new(topology, &moved.features)?;
+        moved.move_features(self.feature_motion);
+        Ok((now, Surface::new(topology, &moved.features)?))
+    }
+}
+
+/// A chosen control and how it came about.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decision {
+    /// The control to take.
+    pub control: Control,
+    /// The viewpoint that the robot is heading for, with its place in the path.
+    pub goal: Option<(usize, Point3<f64>)>,
+    /// Actions within the limits of roll and pitch; zero where the planner has no choice.
+    pub admissible: usize,
+    /// Of those, the safe ones.
+    pub safe: usize,
+    /// Actions for which the objective of eq. (6) was computed.
+    pub scored: usize,
+    /// trace(Pₙ₊₁) of the chosen action where it was computed, rad² + cm².
+    pub predicted_trace: Option<f64>,
+    /// Whether no action was safe and the one that clears the surface by most was taken.
+    pub compromised: bool,
+}
+
+impl Decision {
+    /// A control taken without choosing.
+    #[must_use]
+    pub fn without_choice(control: Control) -> Self {
+        Self {
+            control,
+            goal: None,
+            admissible: 0,
+            safe: 0,
+            scored: 0,
+            predicted_trace: None,
+            compromised: false,
+        }
+    }
+}
+
+/// Chooses the control at each step. Deterministic: the same situations give the same decisions.
+pub trait Planner: Send {
+    /// The control to take from here.
+    ///
+    /// # Errors
+    /// A belief that has broken down, or inputs that do not fit each other.
+    fn decide(&mut self, situation: &Situation<'_>) -> Result<Decision, PlanningError>;
+}
