@@ -1,1 +1,55 @@
-//! Placeholder.
+//! Closed triangle surfaces over moving points.
+//!
+//! A [`Topology`] says which points are joined by which triangles; a [`Surface`] is a topology
+//! placed in the world at one moment, and answers how far a position is from it and what can be
+//! seen past it. A [`Mesh`] is a surface at rest: read from an STL file, or the built-in
+//! [`heart_phantom`]; [`pick_features`] chooses the points of it that a robot will observe.
+//!
+//! Lengths are centimetres and positions are in the world frame throughout. Decisions (which side,
+//! does it touch, is it a corner of the hull) are taken with Shewchuk's adaptive exact predicates,
+//! so that they hold for rays through edges and corners and for points on a common plane.
+//!
+//! No function panics, whatever it is given. Coordinates must be finite and at most
+//! [`MAX_COORDINATE_CM`] in size, which keeps every predicate free of overflow.
+
+mod edges;
+mod error;
+mod features;
+mod hull;
+mod mesh;
+mod phantom;
+mod predicates;
+mod spatial;
+mod stl;
+mod surface;
+mod topology;
+mod winding;
+
+pub use error::SurfaceError;
+pub use features::pick_features;
+pub use mesh::Mesh;
+pub use phantom::{DEFAULT_PHANTOM_SPACING_CM, heart_phantom};
+pub use stl::{MAX_MESH_BYTES, MAX_MESH_FACES};
+pub use surface::Surface;
+pub use topology::Topology;
+
+use nalgebra::Point3;
+
+/// Largest absolute coordinate accepted anywhere in this crate, in cm (ten thousand kilometres).
+pub const MAX_COORDINATE_CM: f64 = 1e9;
+
+/// Whether the predicates may be trusted with this point.
+fn is_usable(p: &Point3<f64>) -> bool {
+    p.iter().all(|c| c.abs() <= MAX_COORDINATE_CM)
+}
+
+/// Fails on the first point that [`is_usable`] refuses.
+fn check_points(points: &[Point3<f64>]) -> Result<(), SurfaceError> {
+    match points.iter().position(|p| !is_usable(p)) {
+        None => Ok(()),
+        Some(index) => Err(SurfaceError::UnusablePoint {
+            index,
+            at: points[index].into(),
+        }),
+    }
+}
