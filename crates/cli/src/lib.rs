@@ -1,1 +1,12 @@
-//! Placeholder.
+//! The command `adslam`: arguments, progress, exit codes. What is computed is computed elsewhere.
+
+mod args;
+mod commands;
+mod exit;
+mod interrupt;
+mod progress;
+
+pub use args::{Command, FilterArgs, RunArgs, TablesArgs};
+pub use commands::{check, filter, run, tables};
+pub use exit::{BAD_INPUT, FAILURE, INTERRUPTED, exit_code};
+pub use interrupt::stop_on_ctrl_c;

@@ -1,1 +1,15 @@
-//! Placeholder.
+//! What happens around filter and planners: scenario and configuration files, the simulated world,
+//! the runner, metrics, logs and tables.
+
+pub mod config;
+pub mod diagnostics;
+mod error;
+pub mod log;
+pub mod metrics;
+pub mod output;
+pub mod run;
+pub mod scenario;
+pub mod tables;
+pub mod world;
+
+pub use error::ExperimentError;

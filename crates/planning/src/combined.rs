@@ -52,9 +52,7 @@ impl CombinedPlanner {
 
 impl Planner for CombinedPlanner {
     fn decide(&mut self, situation: &Situation<'_>) -> Result<Decision, PlanningError> {
-        let goal = self
-            .goals
-            .next_from(&situation.belief.state.pose.position);
+        let goal = self.goals.next_from(&situation.belief.state.pose.position);
         let (now, after) = situation.surfaces()?;
         let safe = SafeActions::find(situation, &now, &after)?;
         let nearest = nearest_first(safe.candidates(), &goal.1);

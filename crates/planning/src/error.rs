@@ -25,10 +25,4 @@ pub enum PlanningError {
         /// How many candidates the grid has.
         candidates: usize,
     },
-    /// Too fine a grid.
-    #[error("the grid of viewpoints has more than {limit} points; make it coarser or smaller")]
-    TooManyViewpoints {
-        /// The most that are allowed.
-        limit: usize,
-    },
 }

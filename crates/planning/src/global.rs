@@ -19,9 +19,7 @@ impl GlobalPlanner {
 
 impl Planner for GlobalPlanner {
     fn decide(&mut self, situation: &Situation<'_>) -> Result<Decision, PlanningError> {
-        let goal = self
-            .goals
-            .next_from(&situation.belief.state.pose.position);
+        let goal = self.goals.next_from(&situation.belief.state.pose.position);
         let (now, after) = situation.surfaces()?;
         let safe = SafeActions::find(situation, &now, &after)?;
         let nearest = nearest_first(safe.candidates(), &goal.1);

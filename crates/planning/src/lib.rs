@@ -37,6 +37,6 @@ pub use predetermined::PredeterminedPlanner;
 pub use safety::{Candidate, SafeActions};
 pub use scoring::{ActionScorer, PlanningNoise};
 pub use viewpoint::{
-    ViewpointGrid, ViewpointPath, ViewpointSampling, features_seen_from, features_seen_in_pose,
-    sample_viewpoints,
+    ViewpointPath, ViewpointSampling, features_never_seen, features_seen_from,
+    features_seen_in_pose, sample_viewpoints,
 };

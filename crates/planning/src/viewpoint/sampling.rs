@@ -23,8 +23,18 @@ pub struct ViewpointPath {
     pub viewpoints: Vec<Point3<f64>>,
     /// The cost of eq. (8) with the penalties, cm.
     pub cost: f64,
-    /// Features that neither the start nor any candidate sees: the planner cannot plan for them.
-    pub never_seen: Vec<FeatureId>,
+}
+
+/// The features that a robot in the pose `start` does not see and that are seen from none of the
+/// viewpoints: a planner that visits those cannot plan for them.
+#[must_use]
+pub fn features_never_seen(
+    viewpoints: &[Point3<f64>],
+    sensor: &Sensor,
+    start: &Pose,
+    surface: &Surface,
+) -> Vec<FeatureId> {
+    Coverage::new(viewpoints, sensor, start, surface).never_seen()
 }
 
 /// Draws K sets of viewpoints and keeps the cheapest.
@@ -71,7 +81,6 @@ pub fn sample_viewpoints(
     Ok(ViewpointPath {
         viewpoints: set.into_iter().map(|i| outside[i]).collect(),
         cost,
-        never_seen: coverage.never_seen(),
     })
 }
 

@@ -1,0 +1,110 @@
+//! The arguments of each subcommand.
+
+use std::path::PathBuf;
+
+use adslam_experiment::ExperimentError;
+use adslam_experiment::run::Interrupt;
+use adslam_experiment::scenario::PlannerName;
+use clap::{Args, Subcommand};
+
+use crate::commands;
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run one planner once and write the run down
+    #[command(after_help = "Writes into the folder given with --out:\n  \
+        summary.json   the run in a few numbers\n  \
+        steps.csv      a row a step, units in the header\n  \
+        features.csv   the features at the end\n  \
+        truth.tum, estimate.tum   trajectories for the evo tools\n\n\
+        Example:\n  \
+        adslam run scenarios/heart.toml --planner local --seed 3 --out results/heart-local-3")]
+    Run(RunArgs),
+    /// Run the estimator over a recorded log
+    #[command(
+        after_help = "The log is JSON lines, a header and a line a step; docs/log.md is its \
+        reference. The output has a line of estimates for each step.\n\n\
+        Example:\n  adslam filter recording.jsonl --out estimates.jsonl"
+    )]
+    Filter(FilterArgs),
+    /// Run everything that a configuration asks for and tabulate it
+    #[command(
+        after_help = "Writes tables.md and tables.json into the folder given with --out.\n\n\
+        Example:\n  adslam tables configs/accumulating.toml --runs 20 --out results/accumulating"
+    )]
+    Tables(TablesArgs),
+    /// Say whether scenarios and configurations are valid, and what is wrong with them
+    #[command(after_help = "Example:\n  adslam check scenarios/*.toml configs/*.toml")]
+    Check {
+        /// Scenario, configuration and published-table files
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+    },
+}
+
+/// `adslam run`
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// The scenario file: what the world is
+    pub scenario: PathBuf,
+    /// predetermined, local, global or combined
+    #[arg(long, value_name = "NAME")]
+    pub planner: PlannerName,
+    /// Seed of all noise; every planner meets the same noise at the same seed
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    pub seed: u64,
+    /// The folder to write to; made if it does not exist
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// An STL file to take for the object in place of the scenario's
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+}
+
+/// `adslam filter`
+#[derive(Debug, Args)]
+pub struct FilterArgs {
+    /// The log
+    pub log: PathBuf,
+    /// The file of estimates to write
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// At a line that cannot be used, keep the estimates up to the line before
+    #[arg(long)]
+    pub keep_complete: bool,
+}
+
+/// `adslam tables`
+#[derive(Debug, Args)]
+pub struct TablesArgs {
+    /// The configuration file: what is run
+    pub config: PathBuf,
+    /// Runs of each planner; as the configuration says where not given
+    #[arg(long, value_name = "N")]
+    pub runs: Option<usize>,
+    /// Only this experiment of the configuration; may be given again
+    #[arg(long, value_name = "LABEL")]
+    pub only: Vec<String>,
+    /// An STL file to take for the object of every experiment with a mesh or a phantom
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+    /// The folder to write to; made if it does not exist
+    #[arg(long, default_value = "results", value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+impl Command {
+    /// Does it.
+    ///
+    /// # Errors
+    /// Bad input, a failure, or an interruption; see [`crate::exit_code`].
+    pub fn execute(&self, interrupt: &Interrupt) -> Result<(), ExperimentError> {
+        match self {
+            Self::Run(args) => commands::run(args, interrupt),
+            Self::Filter(args) => commands::filter(args, interrupt),
+            Self::Tables(args) => commands::tables(args, interrupt),
+            Self::Check { files } => commands::check(files),
+        }
+    }
+}

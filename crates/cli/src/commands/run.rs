@@ -1,0 +1,69 @@
+//! `adslam run`
+
+use adslam_experiment::ExperimentError;
+use adslam_experiment::output::prepare_folder;
+use adslam_experiment::run::{Interrupt, Observer, RunRecorder, Setup, StepView, simulate};
+use adslam_experiment::scenario::Scenario;
+use indicatif::ProgressBar;
+
+use super::warn;
+use crate::{RunArgs, progress};
+
+/// Runs one planner once and writes the run into a folder.
+///
+/// # Errors
+/// Bad input, a failure of the run, or an interruption.
+pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), ExperimentError> {
+    let mut scenario = Scenario::load(&args.scenario)?;
+    if let Some(mesh) = &args.mesh {
+        scenario = scenario.with_mesh(mesh);
+    }
+    let setup = Setup::new(&scenario)?;
+    warn(&setup.warnings);
+    prepare_folder(&args.out)?;
+    let recorder = RunRecorder::create(&args.out, setup.world.rest.len())?;
+    let mut observer = Shown {
+        recorder,
+        bar: progress::bar(setup.steps, "steps"),
+    };
+    let result = simulate(&setup, args.planner, args.seed, interrupt, &mut observer);
+    observer.bar.finish_and_clear();
+    let outcome = result?;
+    warn(&outcome.warnings);
+    let files = observer.recorder.commit(&outcome.summary)?;
+    let summary = &outcome.summary;
+    let coverage = summary
+        .steps_to_full_coverage
+        .map_or("not all seen".to_owned(), |step| {
+            format!("all seen at step {step}")
+        });
+    println!(
+        "{}, {}, seed {}: observed {} feature times, {coverage}, mean pose error {:.3}, mean \
+         feature error {:.3} cm",
+        setup.name,
+        args.planner,
+        args.seed,
+        summary.observed,
+        summary.pose_error_mean,
+        summary.feature_error_mean
+    );
+    let names: Vec<String> = files
+        .iter()
+        .filter_map(|f| Some(f.file_name()?.to_string_lossy().into_owned()))
+        .collect();
+    println!("wrote {} to {}", names.join(", "), args.out.display());
+    Ok(())
+}
+
+/// Writes the run down and shows how far it is.
+struct Shown {
+    recorder: RunRecorder,
+    bar: ProgressBar,
+}
+
+impl Observer for Shown {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+        self.bar.set_position(view.step as u64);
+        self.recorder.step(view)
+    }
+}

@@ -1,0 +1,119 @@
+//! Configuration files: what is run. Scenarios with overrides, planners, seeds, and the published
+//! tables to compare with.
+
+mod check;
+mod plan;
+mod published;
+#[cfg(test)]
+mod tests;
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+pub use check::{FileKind, check_file};
+pub use plan::ExperimentPlan;
+pub use published::{Published, PublishedPlanner, PublishedScenario, StepsToCover};
+
+use crate::diagnostics::{Document, InputError};
+use crate::scenario::PlannerName;
+use crate::scenario::values::{Count, List, Name, Seed};
+
+/// How many times each planner runs in each experiment.
+type Runs = Count<1, 100_000>;
+
+/// A configuration with everything it refers to read, overridden and checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Config {
+    /// The file it came from.
+    pub path: PathBuf,
+    /// What it shows, for the head of its tables.
+    pub title: String,
+    /// Runs of each planner in each experiment.
+    pub runs: usize,
+    /// The seed of the first run; the others count up from it.
+    pub first_seed: u64,
+    /// The experiments, in the order of the file.
+    pub experiments: Vec<ExperimentPlan>,
+}
+
+/// The file itself.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ConfigFile {
+    title: String,
+    #[serde(default = "runs")]
+    runs: Runs,
+    #[serde(default = "first_seed")]
+    first_seed: Seed,
+    published: Option<PathBuf>,
+    experiments: List<Experiment>,
+}
+
+/// An entry of `[[experiments]]`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Experiment {
+    label: Option<Name>,
+    scenario: PathBuf,
+    planners: List<PlannerName>,
+    published: Option<Name>,
+    /// The overrides. Only their being a table is looked at here: `Document` reads them in place.
+    #[serde(default, rename = "set")]
+    _set: toml::Table,
+}
+
+impl Config {
+    /// Reads and checks the configuration at `path` and all files it names, whose paths count from
+    /// its folder.
+    ///
+    /// # Errors
+    /// When one of the files cannot be read or holds anything but what belongs there. A scenario's
+    /// own fault is shown in the scenario's file, that of an override in the configuration.
+    pub fn load(path: &Path) -> Result<Self, InputError> {
+        Self::from_document(&Document::read(path)?)
+    }
+
+    fn from_document(document: &Document) -> Result<Self, InputError> {
+        let file: ConfigFile = document.deserialize()?;
+        let folder = document.path().parent().unwrap_or(Path::new(""));
+        let published = match &file.published {
+            None => None,
+            Some(path) => Some(
+                plan::reachable(document, "published", folder.join(path))
+                    .and_then(|path| Published::load(&path))?,
+            ),
+        };
+        let mut experiments: Vec<ExperimentPlan> = Vec::new();
+        for (index, experiment) in file.experiments.iter().enumerate() {
+            let place = plan::Place {
+                document,
+                folder,
+                index,
+            };
+            let plan = place.plan(experiment, published.as_ref())?;
+            if let Some(other) = experiments
+                .iter()
+                .position(|other| other.label == plan.label)
+            {
+                return Err(place.label_taken(experiment, &plan.label, other));
+            }
+            experiments.push(plan);
+        }
+        Ok(Self {
+            path: document.path().to_owned(),
+            title: file.title,
+            runs: file.runs.get(),
+            first_seed: file.first_seed.as_u64(),
+            experiments,
+        })
+    }
+}
+
+fn runs() -> Runs {
+    Runs::default_of(5)
+}
+
+fn first_seed() -> Seed {
+    Seed::default_of(1)
+}

@@ -1,0 +1,113 @@
+//! The published tables, to print beside our own numbers.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::Path;
+
+use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
+
+use crate::diagnostics::{Document, InputError};
+use crate::scenario::PlannerName;
+use crate::scenario::values::{Count, List, Name, NonNegative};
+
+/// A file of published results.
+#[derive(Debug, Clone, PartialEq, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Published {
+    /// Where they were published.
+    pub title: String,
+    /// The results of each scenario.
+    pub tables: BTreeMap<Name, PublishedScenario>,
+}
+
+/// What was published about one scenario: `[tables.NAME]`.
+#[derive(Debug, Clone, PartialEq, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PublishedScenario {
+    /// Number of the table with the coverage, such as "I".
+    pub coverage_table: Name,
+    /// Number of the table with the errors, such as "II".
+    pub error_table: Name,
+    /// The results of each planner.
+    pub planners: BTreeMap<PlannerName, PublishedPlanner>,
+}
+
+/// One planner's column: `[tables.NAME.planners.PLANNER]`.
+#[derive(Debug, Clone, PartialEq, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PublishedPlanner {
+    /// Observed feature times of each run.
+    pub observed: List<Count<0, 1_000_000_000>>,
+    /// Step at which all features had been seen, of each run.
+    pub steps: List<StepsToCover>,
+    /// Maximum of the pose error, eq. (11).
+    pub pose_error_max: NonNegative,
+    /// Mean of the pose error.
+    pub pose_error_mean: NonNegative,
+    /// Maximum of the feature error at the last step, eq. (12).
+    pub feature_error_max_cm: NonNegative,
+    /// Mean of the feature error at the last step.
+    pub feature_error_mean_cm: NonNegative,
+}
+
+/// The step at which all features have been seen: a number, or "-" where that never happened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StepsToCover(pub Option<usize>);
+
+impl<'de> Deserialize<'de> for StepsToCover {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct StepOrDash;
+
+        // The step is checked in here, where an error still gets its place.
+        impl Visitor<'_> for StepOrDash {
+            type Value = StepsToCover;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a step from 1, or \"-\" for never")
+            }
+
+            fn visit_i64<E: Error>(self, step: i64) -> Result<StepsToCover, E> {
+                match usize::try_from(step) {
+                    Ok(step) if step > 0 => Ok(StepsToCover(Some(step))),
+                    _ => Err(E::invalid_value(Unexpected::Signed(step), &self)),
+                }
+            }
+
+            fn visit_str<E: Error>(self, text: &str) -> Result<StepsToCover, E> {
+                match text {
+                    "-" => Ok(StepsToCover(None)),
+                    other => Err(E::invalid_value(Unexpected::Str(other), &self)),
+                }
+            }
+        }
+
+        deserializer.deserialize_any(StepOrDash)
+    }
+}
+
+impl Published {
+    /// Reads and checks the file of published results at `path`.
+    ///
+    /// # Errors
+    /// When it cannot be read or holds anything else; the error points at the place.
+    pub fn load(path: &Path) -> Result<Self, InputError> {
+        Self::from_document(&Document::read(path)?)
+    }
+
+    pub(super) fn from_document(document: &Document) -> Result<Self, InputError> {
+        let published: Self = document.deserialize()?;
+        for (scenario, tables) in &published.tables {
+            for (planner, column) in &tables.planners {
+                let (observed, steps) = (column.observed.len(), column.steps.len());
+                if observed != steps {
+                    // Names may hold dots, which a path cannot; the table is near enough then.
+                    let key = format!("tables.{scenario}.planners.{planner}.steps");
+                    return Err(document
+                        .error_at(&key, format!("{observed} runs in `observed`, {steps} here"))
+                        .with_help("give one number for each run in both"));
+                }
+            }
+        }
+        Ok(published)
+    }
+}

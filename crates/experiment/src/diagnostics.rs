@@ -1,0 +1,142 @@
+//! Bad input, told so that its author can mend it: what is wrong, where, and what to write instead.
+
+mod document;
+mod explain;
+mod key_path;
+mod overrides;
+
+use std::fmt::Display;
+use std::io;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use miette::{Diagnostic, NamedSource, SourceSpan};
+use thiserror::Error;
+
+pub(crate) use document::Document;
+pub use explain::nearest;
+
+/// Input that cannot be used: a file that cannot be read, or whose content is wrong.
+///
+/// Printed by miette's report handler it shows the file, the line with a caret under the place,
+/// and a remedy; [`Display`] gives the message alone. The command ends with the exit code of bad
+/// input on it.
+#[derive(Debug, Error, Diagnostic)]
+#[error(transparent)]
+#[diagnostic(transparent)]
+pub struct InputError(Box<Details>);
+
+#[derive(Debug, Error, Diagnostic)]
+#[error("{message}")]
+struct Details {
+    message: String,
+    path: PathBuf,
+    #[source_code]
+    text: Option<NamedSource<String>>,
+    #[label("{label}")]
+    span: Option<SourceSpan>,
+    label: String,
+    #[help]
+    help: Option<String>,
+    #[source]
+    cause: Option<io::Error>,
+}
+
+impl InputError {
+    /// Something is wrong with the file at `path` as a whole. The message should name the file.
+    pub fn about_file(path: &Path, message: impl Display) -> Self {
+        Self(Box::new(Details {
+            message: message.to_string(),
+            path: path.to_owned(),
+            text: None,
+            span: None,
+            label: "here".to_owned(),
+            help: None,
+            cause: None,
+        }))
+    }
+
+    /// The file at `path` cannot be read.
+    pub fn unreadable(path: &Path, cause: io::Error) -> Self {
+        let mut error = Self::about_file(path, format_args!("cannot read {}", path.display()));
+        error.0.help = Some(match cause.kind() {
+            io::ErrorKind::NotFound => "check the path; it counts from where you are, or, in a \
+                                        file, from that file's folder"
+                .to_owned(),
+            io::ErrorKind::PermissionDenied => "make the file readable".to_owned(),
+            _ => "give the path of a readable file".to_owned(),
+        });
+        error.0.cause = Some(cause);
+        error
+    }
+
+    /// Something is wrong in `text`, the content of the file at `path`, at the bytes `span`.
+    ///
+    /// A span that does not fit into the text is cut to what does.
+    pub fn in_text(path: &Path, text: &str, span: Range<usize>, message: impl Display) -> Self {
+        let start = floor_char_boundary(text, span.start);
+        let end = floor_char_boundary(text, span.end).max(start);
+        let mut error = Self::about_file(path, message);
+        error.0.text = Some(NamedSource::new(
+            path.display().to_string(),
+            text.to_owned(),
+        ));
+        error.0.span = Some((start, end - start).into());
+        error
+    }
+
+    /// The same error with a remedy: what to write or do instead.
+    #[must_use]
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.0.help = Some(help.into());
+        self
+    }
+
+    /// The same error with other words beside the caret (default: "here").
+    #[must_use]
+    pub fn with_label(mut self, label: impl Into<String>) -> Self {
+        self.0.label = label.into();
+        self
+    }
+
+    /// What is wrong, in a line.
+    pub fn message(&self) -> &str {
+        &self.0.message
+    }
+
+    /// What to write or do instead.
+    pub fn remedy(&self) -> Option<&str> {
+        self.0.help.as_deref()
+    }
+
+    /// The words beside the caret.
+    pub fn label(&self) -> &str {
+        &self.0.label
+    }
+
+    /// The file that is to blame.
+    pub fn path(&self) -> &Path {
+        &self.0.path
+    }
+
+    /// The bytes of the file that are to blame, if it is a part of it.
+    pub fn span(&self) -> Option<Range<usize>> {
+        self.0
+            .span
+            .map(|span| span.offset()..span.offset() + span.len())
+    }
+
+    /// The text that is to blame, as it stands in the file: what the caret points at.
+    pub fn pointed_at(&self) -> Option<&str> {
+        self.0.text.as_ref()?.inner().get(self.span()?)
+    }
+}
+
+/// The last character boundary at or before `index`.
+fn floor_char_boundary(text: &str, index: usize) -> usize {
+    let index = index.min(text.len());
+    (0..=index)
+        .rev()
+        .find(|&i| text.is_char_boundary(i))
+        .unwrap_or(0)
+}

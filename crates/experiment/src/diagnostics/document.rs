@@ -1,0 +1,277 @@
+//! A TOML file, or a TOML file with overrides from another, that knows where every key stands.
+
+use std::fmt::Display;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use serde::de::DeserializeOwned;
+use toml::de::{DeTable, DeValue, Deserializer};
+
+use super::explain::explain;
+use super::{InputError, key_path, overrides};
+
+/// Files above this size are not ours: the largest that a person writes has a few kilobytes.
+const LARGEST_FILE: u64 = 16 << 20;
+
+/// A text and where it came from.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+struct Source {
+    path: PathBuf,
+    text: Arc<str>,
+}
+
+/// A TOML document, kept as its text: it is parsed again when a place is looked up, which happens
+/// when something is wrong and costs next to nothing.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Document {
+    base: Source,
+    overlay: Option<Overlay>,
+}
+
+/// Overrides: a table of another document, whose keys are paths into this one.
+///
+/// Their values keep their places: in the merged tables a span of the overlay is moved behind the
+/// base's text, so that every span says which of the two it belongs to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Overlay {
+    source: Source,
+    /// Path of the table, such as `experiments[0].set`.
+    table: String,
+    /// An override to leave out, to find out whether it is to blame.
+    without: Option<String>,
+}
+
+impl Document {
+    /// Takes `text`, which came from `path`.
+    ///
+    /// # Errors
+    /// When it is empty or not TOML.
+    pub(crate) fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
+        let base = Source {
+            path: path.to_owned(),
+            text: text.into(),
+        };
+        let document = Self {
+            base,
+            overlay: None,
+        };
+        let tables = document.tables()?;
+        if tables.is_empty() {
+            let message = format!("{} has no keys", path.display());
+            return Err(InputError::about_file(path, message).with_help(
+                "docs/scenario.md says what belongs into scenarios and configurations",
+            ));
+        }
+        drop(tables);
+        Ok(document)
+    }
+
+    /// Reads the file at `path`.
+    ///
+    /// # Errors
+    /// When it cannot be read, is no text, is absurdly large, empty, or not TOML.
+    pub(crate) fn read(path: &Path) -> Result<Self, InputError> {
+        let about = |message: String| InputError::about_file(path, message);
+        let unreadable = |cause| InputError::unreadable(path, cause);
+        let metadata = std::fs::metadata(path).map_err(unreadable)?;
+        let name = path.display();
+        if metadata.is_dir() {
+            return Err(about(format!("{name} is a folder, not a file"))
+                .with_help("give the path of a .toml file in it"));
+        }
+        if metadata.len() > LARGEST_FILE {
+            return Err(
+                about(format!("{name} has {} bytes", metadata.len())).with_help(
+                    "scenarios and configurations are short TOML texts; is it another file?",
+                ),
+            );
+        }
+        let bytes = std::fs::read(path).map_err(unreadable)?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            about(format!("{name} is not text: byte {at} is not UTF-8"))
+                .with_help("scenarios and configurations are TOML texts; is it another file?")
+        })?;
+        Self::parse(&text, path)
+    }
+
+    /// The file that the document, overrides apart, came from.
+    pub(crate) fn path(&self) -> &Path {
+        &self.base.path
+    }
+
+    /// This document with the overrides in `table` (such as `experiments[0].set`) of `other`.
+    pub(crate) fn with_overrides(&self, other: &Self, table: &str) -> Self {
+        let overlay = Overlay {
+            source: other.base.clone(),
+            table: table.to_owned(),
+            without: None,
+        };
+        Self {
+            base: self.base.clone(),
+            overlay: Some(overlay),
+        }
+    }
+
+    /// The same document without the override of `path`.
+    pub(crate) fn without_override(&self, path: &str) -> Self {
+        let mut document = self.clone();
+        if let Some(overlay) = &mut document.overlay {
+            overlay.without = Some(path.to_owned());
+        }
+        document
+    }
+
+    /// The keys of the document's root or, with a path, of the table there.
+    pub(crate) fn keys(&self, path: &str) -> Vec<String> {
+        let Ok(tables) = self.tables() else {
+            return Vec::new();
+        };
+        let table = if path.is_empty() {
+            Some(&tables)
+        } else {
+            table_at(&tables, path)
+        };
+        table
+            .into_iter()
+            .flat_map(DeTable::keys)
+            .map(|key| key.get_ref().to_string())
+            .collect()
+    }
+
+    /// Reads the document as a `T`.
+    ///
+    /// # Errors
+    /// When a key is unknown or missing, or a value is not what `T` wants there.
+    pub(crate) fn deserialize<T: DeserializeOwned>(&self) -> Result<T, InputError> {
+        let tables = toml::Spanned::new(0..0, self.tables()?);
+        T::deserialize(Deserializer::from(tables)).map_err(|error| {
+            let span = error.span().unwrap_or(0..0);
+            self.error_in(span, "").explained(explain(&error))
+        })
+    }
+
+    /// An error about the value of the key at `path`, such as `object.points.positions_cm[3]`. It
+    /// points at the value or, where that takes several lines, at its key; and where the key is
+    /// not there (its value being a default) at the innermost table that is.
+    pub(crate) fn error_at(&self, path: &str, message: impl Display) -> InputError {
+        let steps = key_path::steps(path);
+        let span = self.tables().ok().and_then(|tables| {
+            let place = key_path::find(&tables, &steps)?;
+            let value = place.value.span();
+            let long = self.text_of(&value).is_none_or(|text| text.contains('\n'));
+            Some(place.key.filter(|_| long).unwrap_or(value))
+        });
+        self.error_in(span.unwrap_or(0..0), message)
+    }
+
+    /// An error about the override of `key`, pointing at it.
+    pub(crate) fn error_at_override(&self, key: &str, message: impl Display) -> InputError {
+        let Some(overlay) = &self.overlay else {
+            return self.error_in(0..0, message);
+        };
+        let span = parse(&overlay.source).ok().and_then(|other| {
+            let (key, value) = table_at(&other, &overlay.table)?
+                .iter()
+                .find(|(known, _)| known.get_ref() == key)?;
+            Some(key.span().start..value.span().end)
+        });
+        let Source { path, text } = &overlay.source;
+        InputError::in_text(path, text, span.unwrap_or(0..0), message)
+    }
+
+    /// Whether a span of the merged tables lies in the overrides.
+    fn in_overlay(&self, span: &Range<usize>) -> bool {
+        span.start > self.base.text.len()
+    }
+
+    /// Whether `error` points at the document itself, not at one of its overrides.
+    pub(crate) fn is_in_base(&self, error: &InputError) -> bool {
+        error.path() == self.base.path
+    }
+
+    fn text_of(&self, span: &Range<usize>) -> Option<&str> {
+        match &self.overlay {
+            Some(overlay) if self.in_overlay(span) => {
+                let offset = self.overlay_offset();
+                overlay
+                    .source
+                    .text
+                    .get(span.start - offset..span.end.checked_sub(offset)?)
+            }
+            _ => self.base.text.get(span.clone()),
+        }
+    }
+
+    fn error_in(&self, span: Range<usize>, message: impl Display) -> InputError {
+        match &self.overlay {
+            Some(Overlay { source, .. }) if self.in_overlay(&span) => {
+                let offset = self.overlay_offset();
+                let span = span.start - offset..span.end.saturating_sub(offset);
+                InputError::in_text(&source.path, &source.text, span, message)
+            }
+            _ => InputError::in_text(&self.base.path, &self.base.text, span, message),
+        }
+    }
+
+    /// Where the overlay's text starts: one behind the base's end, which is still the base's.
+    fn overlay_offset(&self) -> usize {
+        self.base.text.len() + 1
+    }
+
+    fn tables(&self) -> Result<DeTable<'_>, InputError> {
+        let mut root = parse(&self.base)?;
+        let Some(overlay) = &self.overlay else {
+            return Ok(root);
+        };
+        let other = parse(&overlay.source)?;
+        let Source { path, text } = &overlay.source;
+        for (key, value) in table_at(&other, &overlay.table).into_iter().flatten() {
+            let name = key.get_ref();
+            if overlay.without.as_deref() == Some(name) {
+                continue;
+            }
+            let dotted = value.get_ref().is_table()
+                && !text
+                    .get(value.span())
+                    .is_some_and(|text| text.starts_with('{'));
+            if dotted {
+                let message = format!("the path that starts with `{name}` is not in quotes");
+                return Err(InputError::in_text(path, text, key.span(), message)
+                    .with_help(format!("put all of it in quotes: \"{name}.…\" = …")));
+            }
+            let offset = self.overlay_offset();
+            let value = overrides::shifted(value, offset);
+            let span = overrides::moved(key.span(), offset);
+            overrides::set(&mut root, name, span, value).map_err(|in_the_way| {
+                let base = self.base.path.display();
+                InputError::in_text(
+                    path,
+                    text,
+                    key.span(),
+                    format!("there is no `{name}` to set"),
+                )
+                .with_label("leads nowhere")
+                .with_help(format!("`{in_the_way}` in {base} has no such part"))
+            })?;
+        }
+        Ok(root)
+    }
+}
+
+fn table_at<'a, 'i>(root: &'a DeTable<'i>, path: &str) -> Option<&'a DeTable<'i>> {
+    let place = key_path::find(root, &key_path::steps(path))?;
+    match place.value.get_ref() {
+        DeValue::Table(table) if place.whole => Some(table),
+        _ => None,
+    }
+}
+
+fn parse(source: &Source) -> Result<DeTable<'_>, InputError> {
+    let parsed = DeTable::parse(&source.text).map_err(|error| {
+        let span = error.span().unwrap_or(0..0);
+        InputError::in_text(&source.path, &source.text, span, "").explained(explain(&error))
+    })?;
+    Ok(parsed.into_inner())
+}

@@ -1,0 +1,156 @@
+//! The words of serde and toml, put so that the author of a file knows what to write.
+
+use super::InputError;
+
+/// An error message in three parts.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Explanation {
+    pub(super) message: String,
+    pub(super) label: String,
+    pub(super) help: Option<String>,
+}
+
+/// Puts an error of the toml parser or of a `Deserialize` in better words.
+///
+/// Errors of our own number types read "what is wrong; what to write"; the two parts become message
+/// and help.
+pub(super) fn explain(error: &toml::de::Error) -> Explanation {
+    let text = error.message();
+    let quoted: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
+    let explanation = |message: String, label: &str, help: String| Explanation {
+        message,
+        label: label.to_owned(),
+        help: Some(help),
+    };
+    if text.starts_with("unknown field")
+        && let Some((unknown, known)) = quoted.split_first()
+    {
+        let message = format!("unknown key `{unknown}`");
+        return explanation(
+            message,
+            "no such key here",
+            suggestion(unknown, known, "keys"),
+        );
+    }
+    if text.starts_with("unknown variant")
+        && let Some((unknown, known)) = quoted.split_first()
+    {
+        let message = format!("`{unknown}` is not one of the choices");
+        return explanation(
+            message,
+            "no such choice",
+            suggestion(unknown, known, "choices"),
+        );
+    }
+    if text.starts_with("missing field")
+        && let Some(missing) = quoted.first()
+    {
+        let help = format!("add `{missing} = …` here; docs/scenario.md says what it means");
+        return explanation(
+            format!("the key `{missing}` is missing"),
+            "in this part",
+            help,
+        );
+    }
+    if text.starts_with("wanted exactly 1 element") || text == "wanted string or table" {
+        let help = "keep one of the choices and its keys, such as `sampled = { … }`; \
+                    docs/scenario.md lists them";
+        return explanation(
+            "exactly one choice must be made here".into(),
+            "here",
+            help.into(),
+        );
+    }
+    if let Some((wrong, expected)) = text
+        .strip_prefix("invalid type: ")
+        .or_else(|| text.strip_prefix("invalid value: "))
+        .and_then(|rest| rest.rsplit_once(", expected "))
+    {
+        let help = format!("write {expected}");
+        return explanation(
+            format!("{wrong} cannot stand here"),
+            "wrong kind of value",
+            help,
+        );
+    }
+    match text.split_once("; ") {
+        Some((message, help)) => explanation(message.to_owned(), "here", help.to_owned()),
+        None => Explanation {
+            message: text.to_owned(),
+            label: "here".to_owned(),
+            help: None,
+        },
+    }
+}
+
+impl InputError {
+    /// The error with message, label and help of an explanation, at a place.
+    pub(super) fn explained(mut self, explanation: Explanation) -> Self {
+        self.0.message = explanation.message;
+        self.0.label = explanation.label;
+        self.0.help = explanation.help;
+        self
+    }
+}
+
+/// "did you mean `x`?", where one of the known words is close, and the list of them.
+fn suggestion(unknown: &str, known: &[&str], kind: &str) -> String {
+    let list = known
+        .iter()
+        .map(|word| format!("`{word}`"))
+        .collect::<Vec<_>>()
+        .join(", ");
+    match nearest(unknown, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`? The {kind} here: {list}"),
+        None if known.is_empty() => "nothing is expected here; take it out".to_owned(),
+        None => format!("the {kind} here: {list}"),
+    }
+}
+
+/// The word of `known` that `unknown` may have been meant for: the one with the fewest edits, if
+/// those are at most a third of its length.
+pub fn nearest<'a>(unknown: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    known
+        .into_iter()
+        .map(|word| (edits(unknown, word), word))
+        .min()
+        .filter(|(edits, word)| *edits <= (word.chars().count() / 3).max(1))
+        .map(|(_, word)| word)
+}
+
+/// Levenshtein's distance in characters, by rows.
+fn edits(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(x != *y);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edits_are_counted() {
+        assert_eq!(edits("kitten", "sitting"), 3);
+        assert_eq!(edits("", "abc"), 3);
+        assert_eq!(edits("abc", ""), 3);
+        assert_eq!(edits("σ_cm", "s_cm"), 1);
+    }
+
+    #[test]
+    fn only_a_near_word_is_suggested() {
+        let known = ["range_cm", "min_range_cm"];
+        assert_eq!(nearest("rang_cm", known), Some("range_cm"));
+        assert_eq!(nearest("colour", known), None);
+        assert_eq!(nearest("x", []), None);
+    }
+}

@@ -1,0 +1,139 @@
+//! Where a key of a TOML document stands in its text.
+
+use std::fmt;
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// One step from a table or an array to what it holds.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Step {
+    /// A key of a table.
+    Key(String),
+    /// An element of an array, from 0.
+    Element(usize),
+}
+
+/// The steps of a path such as `object.points.positions_cm[3]`, from the root.
+///
+/// A path that is no path (an empty key, a bracket without a number) gives a key that no document
+/// of ours has, and so is reported as unknown by whoever looks it up.
+pub(super) fn steps(path: &str) -> Vec<Step> {
+    let mut steps = Vec::new();
+    for part in path.split('.') {
+        let (key, indices) = part.split_once('[').unwrap_or((part, ""));
+        let numbers: Option<Vec<usize>> = indices
+            .split_terminator('[')
+            .map(|index| {
+                index
+                    .strip_suffix(']')
+                    .and_then(|number| number.parse().ok())
+            })
+            .collect();
+        match numbers {
+            Some(numbers) => {
+                steps.push(Step::Key(key.to_owned()));
+                steps.extend(numbers.into_iter().map(Step::Element));
+            }
+            None => steps.push(Step::Key(part.to_owned())),
+        }
+    }
+    steps
+}
+
+/// A place in a document.
+pub(super) struct Place<'a, 'i> {
+    /// Where the key stands that leads to the value, if it is not an element of an array.
+    pub(super) key: Option<Range<usize>>,
+    /// The value.
+    pub(super) value: &'a Spanned<DeValue<'i>>,
+    /// Whether this is where the whole path leads, not only its beginning.
+    pub(super) whole: bool,
+}
+
+/// The place that all of `path` leads to, or else the last one that is there; none when not even
+/// the first key is.
+pub(super) fn find<'a, 'i>(root: &'a DeTable<'i>, path: &[Step]) -> Option<Place<'a, 'i>> {
+    let (first, rest) = path.split_first()?;
+    let Step::Key(first) = first else { return None };
+    let mut place = child(root, first)?;
+    for step in rest {
+        let next = match (step, place.value.get_ref()) {
+            (Step::Key(key), DeValue::Table(table)) => child(table, key),
+            (Step::Element(index), DeValue::Array(array)) => array.get(*index).map(|value| Place {
+                key: None,
+                value,
+                whole: true,
+            }),
+            _ => None,
+        };
+        match next {
+            Some(next) => place = next,
+            None => {
+                place.whole = false;
+                break;
+            }
+        }
+    }
+    Some(place)
+}
+
+fn child<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> Option<Place<'a, 'i>> {
+    let (key, value) = table.iter().find(|(known, _)| known.get_ref() == key)?;
+    Some(Place {
+        key: Some(key.span()),
+        value,
+        whole: true,
+    })
+}
+
+impl fmt::Display for Step {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Key(key) => write!(f, ".{key}"),
+            Self::Element(index) => write!(f, "[{index}]"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_is_cut_into_steps() {
+        let key = |key: &str| Step::Key(key.to_owned());
+        assert_eq!(
+            steps("a.b_cm[3][10].c"),
+            [
+                key("a"),
+                key("b_cm"),
+                Step::Element(3),
+                Step::Element(10),
+                key("c")
+            ]
+        );
+    }
+
+    #[test]
+    fn what_is_no_path_is_an_unknown_key() {
+        for odd in [
+            "", "[", "a[", "a[]", "a[x]", "a]", "a[1", "a..b", "[[", "a[-1]",
+        ] {
+            assert!(!steps(odd).is_empty(), "{odd}");
+        }
+        assert_eq!(steps("a[x]"), [Step::Key("a[x]".to_owned())]);
+    }
+
+    #[test]
+    fn finds_what_is_there_or_the_last_that_is() {
+        let text = "[a.b]\nc = [1, [2, 3]]\n";
+        let table = DeTable::parse(text).unwrap();
+        let at = |path| find(table.get_ref(), &steps(path)).map(|p| &text[p.value.span()]);
+        assert_eq!(at("a.b.c[1][0]"), Some("2"));
+        assert_eq!(at("a.b.c[7]"), Some("[1, [2, 3]]"));
+        assert_eq!(at("a.b.d"), Some("[a.b]"));
+        assert_eq!(at("x"), None);
+    }
+}

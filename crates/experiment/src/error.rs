@@ -1,0 +1,84 @@
+//! Why an experiment, a replayed log or a table could not be finished.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use adslam_estimator::EstimatorError;
+use adslam_planning::PlanningError;
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::diagnostics::InputError;
+
+/// Everything that can stop the work of this crate.
+#[derive(Debug, Error, Diagnostic)]
+pub enum ExperimentError {
+    /// The input cannot be used; nothing was run.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Input(#[from] InputError),
+    /// A decision failed during a run.
+    #[error("{run}: the planner failed at step {step}: {source}")]
+    Planning {
+        /// Which run.
+        run: String,
+        /// The step at which it had to decide.
+        step: usize,
+        /// What happened.
+        source: PlanningError,
+    },
+    /// The filter failed during a run or a replay.
+    #[error("{run}: the filter failed at step {step}: {source}")]
+    Filter {
+        /// Which run or log.
+        run: String,
+        /// The step that it was computing.
+        step: usize,
+        /// What happened.
+        source: EstimatorError,
+    },
+    /// The simulated object or the error of an estimate cannot be computed any more.
+    #[error("{run}: step {step} cannot be simulated: {reason}")]
+    Simulation {
+        /// Which run.
+        run: String,
+        /// The step.
+        step: usize,
+        /// What happened.
+        reason: String,
+    },
+    /// A result could not be written. What was there before is unchanged.
+    #[error("cannot write {}: {source}", path.display())]
+    #[diagnostic(help("check that the folder exists, is writable, and that the disk has room"))]
+    Output {
+        /// Which file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Some of many runs failed; the others were finished and written.
+    #[error("{} of the runs failed:\n{}", failures.len(), failures.join("\n"))]
+    Runs {
+        /// What happened to each.
+        failures: Vec<String>,
+    },
+    /// The user asked to stop.
+    #[error("interrupted; what had finished by then was written")]
+    Interrupted,
+}
+
+impl ExperimentError {
+    /// Whether the input is to blame, rather than the work itself.
+    #[must_use]
+    pub const fn is_bad_input(&self) -> bool {
+        matches!(self, Self::Input(_))
+    }
+
+    /// Turns what a writer says into the error that names its file.
+    pub(crate) fn output<E: Into<io::Error>>(path: &Path) -> impl FnOnce(E) -> Self + '_ {
+        move |source| Self::Output {
+            path: path.to_owned(),
+            source: source.into(),
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! Recorded logs: the filter over controls and measurements from any source.
+//!
+//! A log is JSON lines: a header, then a line a step. `docs/log.md` is the reference of the format.
+
+mod format;
+mod read;
+mod replay;
+
+pub use format::{EstimateLine, LogHeader, LogStep};
+pub use read::LogReader;
+pub use replay::{Replay, ReplaySummary, TailPolicy, filter_log};

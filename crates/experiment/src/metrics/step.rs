@@ -1,0 +1,140 @@
+//! Errors at one step.
+
+use adslam_estimator::Belief;
+use adslam_models::{EulerAngles, FeatureId, Pose};
+use nalgebra::{Isometry3, Point3};
+
+use super::align;
+
+/// The errors of a belief against the truth at one step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepMetrics {
+    /// Eq. (11): √(e_Θᵀe_Θ + e_xᵀe_x), radians and cm together as the paper has it.
+    pub pose_error: f64,
+    /// The orientation's part of it, radians.
+    pub orientation_error: f64,
+    /// The position's part of it, cm.
+    pub position_error: f64,
+    /// Eq. (12) for each feature, cm.
+    pub feature_errors: Vec<f64>,
+    /// eᵀP⁻¹e of the pose, 6 degrees of freedom; absent while its covariance is singular, as at an
+    /// exactly known start.
+    pub pose_nees: Option<f64>,
+    /// Mean over the features of eᵀP⁻¹e, 3 degrees of freedom each; absent while one is singular.
+    pub feature_nees: Option<f64>,
+    /// Eq. (11) after the estimate was aligned to the object, see [`measure_step`].
+    pub relative_pose_error: f64,
+    /// Mean of eq. (12) after the alignment, cm.
+    pub relative_feature_error: f64,
+}
+
+/// Compares a belief with the truth.
+///
+/// The object-relative errors align the estimated features rigidly to the true ones and move the
+/// estimated pose with them: they hold what the robot knows of its place relative to the object,
+/// without the drift of everything together, which no measurement shows.
+///
+/// Nothing if the estimate is not finite.
+#[must_use]
+pub fn measure_step(belief: &Belief, pose: &Pose, features: &[Point3<f64>]) -> Option<StepMetrics> {
+    let error = belief.state.pose.minus(pose);
+    let estimated = &belief.state.features;
+    let distances = |moved: &Isometry3<f64>| -> Vec<f64> {
+        estimated
+            .iter()
+            .zip(features)
+            .map(|(e, p)| (moved * e - p).norm())
+            .collect()
+    };
+    let feature_errors = distances(&Isometry3::identity());
+    let alignment = align(estimated, features)?;
+    let relative_pose = moved_pose(&belief.state.pose, &alignment);
+    Some(StepMetrics {
+        pose_error: error.norm(),
+        orientation_error: error.fixed_rows::<3>(0).norm(),
+        position_error: error.fixed_rows::<3>(3).norm(),
+        pose_nees: belief
+            .covariance
+            .pose()
+            .cholesky()
+            .map(|c| error.dot(&c.solve(&error))),
+        feature_nees: feature_nees(belief, features),
+        relative_pose_error: relative_pose.minus(pose).norm(),
+        relative_feature_error: mean(&distances(&alignment)),
+        feature_errors,
+    })
+}
+
+fn moved_pose(pose: &Pose, by: &Isometry3<f64>) -> Pose {
+    let rotation = by.rotation * pose.orientation.quaternion();
+    Pose::new(
+        EulerAngles::from_rotation(&rotation.to_rotation_matrix()),
+        by * pose.position,
+    )
+}
+
+fn feature_nees(belief: &Belief, features: &[Point3<f64>]) -> Option<f64> {
+    let each: Option<Vec<f64>> = features
+        .iter()
+        .enumerate()
+        .map(|(j, p)| {
+            let error = belief.state.features[j] - p;
+            let factor = belief.covariance.feature(FeatureId(j)).cholesky()?;
+            Some(error.dot(&factor.solve(&error)))
+        })
+        .collect();
+    Some(mean(&each?))
+}
+
+/// The mean; NaN of nothing.
+pub(super) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use nalgebra::{Matrix6, Vector3, Vector6};
+
+    fn truth() -> (Pose, Vec<Point3<f64>>) {
+        let pose = Pose::from_vector(&Vector6::new(0.1, 0.2, 3.1, 1.0, 2.0, 3.0));
+        let features = vec![
+            Point3::new(1.0, 0.0, 0.0),
+            Point3::new(0.0, 2.0, 0.0),
+            Point3::new(0.0, 0.0, 3.0),
+            Point3::origin(),
+        ];
+        (pose, features)
+    }
+
+    #[test]
+    fn errors_by_hand() {
+        let (pose, features) = truth();
+        // The yaw differs across the wrap: 3.1 + 0.12 is beyond π.
+        let estimate = pose.plus(&Vector6::new(0.0, 0.0, 0.12, 0.03, 0.04, 0.0));
+        let off: Vec<Point3<f64>> = features.iter().map(|p| p + Vector3::x() * 0.2).collect();
+        let belief = Belief::initial(estimate, off, &(Matrix6::identity() * 0.01), 0.1).unwrap();
+        let metrics = measure_step(&belief, &pose, &features).unwrap();
+        assert_relative_eq!(metrics.pose_error, 0.13, epsilon = 1e-12);
+        assert_relative_eq!(metrics.orientation_error, 0.12, epsilon = 1e-12);
+        assert_relative_eq!(metrics.position_error, 0.05, epsilon = 1e-12);
+        assert_relative_eq!(metrics.pose_nees.unwrap(), 1.69, epsilon = 1e-10);
+        assert_relative_eq!(metrics.feature_nees.unwrap(), 4.0, epsilon = 1e-10);
+        assert_relative_eq!(metrics.feature_errors[2], 0.2, epsilon = 1e-12);
+        assert!(metrics.relative_feature_error < 1e-12);
+    }
+
+    #[test]
+    fn moving_everything_together_leaves_no_relative_error() {
+        let (pose, features) = truth();
+        let motion = Isometry3::new(Vector3::new(0.3, -0.2, 0.1), Vector3::new(0.0, 0.1, 0.3));
+        let moved = features.iter().map(|p| motion * p).collect();
+        let belief =
+            Belief::initial(moved_pose(&pose, &motion), moved, &Matrix6::zeros(), 0.1).unwrap();
+        let metrics = measure_step(&belief, &pose, &features).unwrap();
+        assert!(metrics.pose_error > 0.3);
+        assert!(metrics.relative_pose_error < 1e-12);
+        assert_eq!(metrics.pose_nees, None, "an exactly known pose has no NEES");
+    }
+}

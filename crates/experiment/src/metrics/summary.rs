@@ -1,0 +1,227 @@
+//! One run in a few numbers: RUN of tables.json.
+
+use serde::{Deserialize, Serialize};
+
+use super::step::{StepMetrics, mean};
+
+/// The result of one run. Pose errors mix radians and cm as eq. (11) does; lengths are cm.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunSummary {
+    /// The seed of all its noise.
+    pub seed: u64,
+    /// Observed feature times: visible features summed over the steps after the first.
+    pub observed: usize,
+    /// The first step (the start is step 1) by which every feature has been seen.
+    pub steps_to_full_coverage: Option<usize>,
+    /// Mean over all steps of eq. (11).
+    pub pose_error_mean: f64,
+    /// Maximum over all steps of eq. (11).
+    pub pose_error_max: f64,
+    /// Mean over the features of eq. (12) at the last step.
+    pub feature_error_mean: f64,
+    /// Maximum over the features of eq. (12) at the last step.
+    pub feature_error_max: f64,
+    /// Mean over all steps of the object-relative pose error.
+    pub relative_pose_error_mean: f64,
+    /// Mean over all steps of the mean object-relative feature error.
+    pub relative_feature_error_mean: f64,
+    /// Mean pose NEES over the steps that have one; 6 is consistent.
+    pub pose_nees_mean: Option<f64>,
+    /// Mean feature NEES over the steps that have one; 3 is consistent.
+    pub feature_nees_mean: Option<f64>,
+    /// Steps with the true robot inside the true object.
+    pub steps_inside_object: usize,
+    /// Steps with the true robot nearer to the true surface than the clearance, or inside.
+    pub steps_below_clearance: usize,
+    /// Decisions for which no action was safe.
+    pub compromised_decisions: usize,
+    /// Time to choose an action.
+    pub decision_ms: DecisionTimes,
+}
+
+/// Times of the decisions of a run, in milliseconds. The only numbers that differ between two runs of
+/// the same seed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DecisionTimes {
+    /// Half of them took less.
+    pub median: f64,
+    /// 95 % of them took less.
+    pub p95: f64,
+    /// The longest.
+    pub max: f64,
+}
+
+impl DecisionTimes {
+    /// Of durations in any order; zero if there are none.
+    #[must_use]
+    pub fn of(mut milliseconds: Vec<f64>) -> Self {
+        milliseconds.sort_by(f64::total_cmp);
+        let at = |quantile: f64| {
+            // The nearest rank.
+            let rank = (quantile * milliseconds.len() as f64).ceil();
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a rank within the list"
+            )]
+            let index = (rank as usize).saturating_sub(1);
+            milliseconds.get(index).copied().unwrap_or(0.0)
+        };
+        Self {
+            median: at(0.5),
+            p95: at(0.95),
+            max: at(1.0),
+        }
+    }
+}
+
+/// Adds up a run, step by step.
+#[derive(Clone, Debug, Default)]
+pub struct SummaryBuilder {
+    pose_errors: Vec<f64>,
+    relative_pose_errors: Vec<f64>,
+    relative_feature_errors: Vec<f64>,
+    pose_nees: Vec<f64>,
+    feature_nees: Vec<f64>,
+    last_feature_errors: Vec<f64>,
+    seen: Vec<bool>,
+    observed: usize,
+    coverage_step: Option<usize>,
+    inside: usize,
+    below_clearance: usize,
+    compromised: usize,
+    decision_ms: Vec<f64>,
+}
+
+impl SummaryBuilder {
+    /// For a run with this many features.
+    #[must_use]
+    pub fn new(feature_count: usize) -> Self {
+        Self {
+            seen: vec![false; feature_count],
+            ..Self::default()
+        }
+    }
+
+    /// Adds what happened at `step` (from 1): the features then visible (by number), the errors, and the
+    /// true robot's signed distance from the true surface against the clearance, cm.
+    pub fn add_step(
+        &mut self,
+        step: usize,
+        visible: impl IntoIterator<Item = usize>,
+        metrics: &StepMetrics,
+        signed_distance: f64,
+        clearance: f64,
+    ) {
+        for feature in visible {
+            if let Some(seen) = self.seen.get_mut(feature) {
+                *seen = true;
+            }
+            if step > 1 {
+                self.observed += 1;
+            }
+        }
+        if self.coverage_step.is_none() && self.seen.iter().all(|seen| *seen) {
+            self.coverage_step = Some(step);
+        }
+        self.pose_errors.push(metrics.pose_error);
+        self.relative_pose_errors.push(metrics.relative_pose_error);
+        self.relative_feature_errors
+            .push(metrics.relative_feature_error);
+        self.pose_nees.extend(metrics.pose_nees);
+        self.feature_nees.extend(metrics.feature_nees);
+        self.last_feature_errors.clone_from(&metrics.feature_errors);
+        self.inside += usize::from(signed_distance < 0.0);
+        self.below_clearance += usize::from(signed_distance < clearance);
+    }
+
+    /// Adds a decision that took this long.
+    pub fn add_decision(&mut self, milliseconds: f64, compromised: bool) {
+        self.decision_ms.push(milliseconds);
+        self.compromised += usize::from(compromised);
+    }
+
+    /// The run as a whole.
+    #[must_use]
+    pub fn finish(self, seed: u64) -> RunSummary {
+        let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        let mean_of_some = |values: &[f64]| (!values.is_empty()).then(|| mean(values));
+        RunSummary {
+            seed,
+            observed: self.observed,
+            steps_to_full_coverage: self.coverage_step,
+            pose_error_mean: mean(&self.pose_errors),
+            pose_error_max: largest(&self.pose_errors),
+            feature_error_mean: mean(&self.last_feature_errors),
+            feature_error_max: largest(&self.last_feature_errors),
+            relative_pose_error_mean: mean(&self.relative_pose_errors),
+            relative_feature_error_mean: mean(&self.relative_feature_errors),
+            pose_nees_mean: mean_of_some(&self.pose_nees),
+            feature_nees_mean: mean_of_some(&self.feature_nees),
+            steps_inside_object: self.inside,
+            steps_below_clearance: self.below_clearance,
+            compromised_decisions: self.compromised,
+            decision_ms: DecisionTimes::of(self.decision_ms),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn metrics(error: f64) -> StepMetrics {
+        StepMetrics {
+            pose_error: error,
+            orientation_error: 0.0,
+            position_error: error,
+            feature_errors: vec![error, 3.0 * error],
+            pose_nees: (error > 0.0).then_some(6.0),
+            feature_nees: Some(3.0),
+            relative_pose_error: error / 2.0,
+            relative_feature_error: error,
+        }
+    }
+
+    #[test]
+    fn counts_as_the_paper_does() {
+        let mut builder = SummaryBuilder::new(2);
+        builder.add_step(1, [0], &metrics(0.0), 1.0, 0.3);
+        builder.add_step(2, [0], &metrics(0.3), 0.2, 0.3);
+        builder.add_step(3, [0, 1], &metrics(0.6), -0.1, 0.3);
+        builder.add_decision(1.0, false);
+        builder.add_decision(3.0, true);
+        let run = builder.finish(9);
+        assert_eq!((run.seed, run.observed), (9, 3), "the start does not count");
+        assert_eq!(run.steps_to_full_coverage, Some(3));
+        assert!((run.pose_error_mean - 0.3).abs() < 1e-15);
+        assert_eq!(
+            (run.pose_error_max, run.feature_error_max),
+            (0.6, 3.0 * 0.6)
+        );
+        assert!(
+            (run.feature_error_mean - 1.2).abs() < 1e-15,
+            "of the last step"
+        );
+        assert_eq!((run.steps_inside_object, run.steps_below_clearance), (1, 2));
+        assert_eq!(run.pose_nees_mean, Some(6.0));
+        assert_eq!(run.compromised_decisions, 1);
+        assert_eq!(
+            run.decision_ms,
+            DecisionTimes {
+                median: 1.0,
+                p95: 3.0,
+                max: 3.0
+            }
+        );
+    }
+
+    #[test]
+    fn what_is_seen_at_the_start_counts_for_coverage() {
+        let mut builder = SummaryBuilder::new(2);
+        builder.add_step(1, [1, 0], &metrics(0.0), 1.0, 0.3);
+        let run = builder.finish(1);
+        assert_eq!((run.observed, run.steps_to_full_coverage), (0, Some(1)));
+        assert_eq!((run.pose_nees_mean, run.decision_ms.max), (None, 0.0));
+    }
+}

@@ -1,0 +1,96 @@
+//! The planner of a name, with the parameters that the scenario gives it.
+
+use adslam_estimator::Belief;
+use adslam_planning::{
+    CombinedPlanner, GlobalPlanner, Goals, LocalPlanner, Nearest, Planner, PlanningError,
+    PlanningNoise, PredeterminedPlanner, ViewpointSampling, features_never_seen, sample_viewpoints,
+};
+use adslam_surface::Surface;
+use rand::RngExt;
+
+use super::Setup;
+use super::setup::numbers;
+use crate::scenario::{self, PlannerName, Viewpoints};
+use crate::world::{Stream, stream};
+
+/// A planner ready to decide, and what its user should know about it. The draws that it needs
+/// come from the seed's own stream, so the global and the combined planner share one path.
+///
+/// # Errors
+/// No viewpoint outside the object, or a first estimate that makes no surface.
+pub fn build_planner(
+    setup: &Setup,
+    name: PlannerName,
+    belief: &Belief,
+    seed: u64,
+) -> Result<(Box<dyn Planner>, Vec<String>), PlanningError> {
+    let planners = &setup.scenario.planners;
+    let sigma = |cm: f64| PlanningNoise {
+        feature_measurement_sigma: Some(cm),
+    };
+    Ok(match name {
+        PlannerName::Predetermined => (
+            Box::new(PredeterminedPlanner::new(setup.predetermined)),
+            Vec::new(),
+        ),
+        PlannerName::Local => {
+            let noise = sigma(setup.scenario.local_planning_sigma_cm());
+            (Box::new(LocalPlanner::new(noise)), Vec::new())
+        }
+        PlannerName::Global => {
+            let (goals, warnings) = goals(setup, belief, seed)?;
+            (Box::new(GlobalPlanner::new(goals)), warnings)
+        }
+        PlannerName::Combined => {
+            let (goals, warnings) = goals(setup, belief, seed)?;
+            let nearest = match planners.combined.nearest() {
+                scenario::Nearest::Fraction(fraction) => Nearest::Fraction(fraction),
+                scenario::Nearest::Count(count) => Nearest::Count(count),
+            };
+            let noise = sigma(setup.scenario.combined_planning_sigma_cm());
+            (
+                Box::new(CombinedPlanner::new(goals, nearest, noise)),
+                warnings,
+            )
+        }
+    })
+}
+
+/// The viewpoints to visit: those of the scenario, or a path drawn by Algorithm 2.
+fn goals(setup: &Setup, belief: &Belief, seed: u64) -> Result<(Goals, Vec<String>), PlanningError> {
+    let parameters = &setup.scenario.planners.global;
+    let model = &setup.planning;
+    let surface = Surface::new(&model.topology, &belief.state.features)?;
+    let viewpoints: Vec<_> = match &setup.scenario.viewpoints {
+        Viewpoints::Fixed(fixed) => fixed.positions_cm.iter().map(|p| p.point()).collect(),
+        Viewpoints::Sampled(grid) => {
+            let sampling = ViewpointSampling {
+                samples: parameters.samples.get(),
+                crossing_penalty: *parameters.crossing_penalty_cm,
+            };
+            let mut generator = stream(seed, Stream::Planner);
+            let path = sample_viewpoints(
+                &grid.candidates(),
+                &model.sensor,
+                &belief.state.pose,
+                &surface,
+                &sampling,
+                &mut || generator.random::<f64>(),
+            )?;
+            path.viewpoints
+        }
+    };
+    let unseen = features_never_seen(&viewpoints, &model.sensor, &belief.state.pose, &surface);
+    let mut warnings = Vec::new();
+    if !unseen.is_empty() {
+        warnings.push(format!(
+            "{}: no viewpoint sees features {}; the global path does not cover them",
+            setup.name,
+            numbers(unseen.iter().map(|feature| feature.0))
+        ));
+    }
+    Ok((
+        Goals::new(viewpoints, *parameters.reached_within_cm)?,
+        warnings,
+    ))
+}

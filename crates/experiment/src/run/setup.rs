@@ -1,0 +1,302 @@
+//! A scenario made ready to run: read once, shared by all its runs.
+
+use std::sync::Arc;
+
+use adslam_deformation::ObjectMotion;
+use adslam_estimator::FilterNoise;
+use adslam_models::{Control, EulerAngles, Pose, Sensor};
+use adslam_planning::{ActionSet, PlanningModel};
+use adslam_surface::{Mesh, Surface, SurfaceError, Topology, heart_phantom, pick_features};
+use nalgebra::{Point3, Vector3};
+
+use crate::diagnostics::InputError;
+use crate::scenario::{self, Object, Scenario, Structure, Viewpoints, values};
+use crate::world::{DeformationNoise, WorldModel, WorldNoise};
+
+/// Everything that the runs of one scenario have in common.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// The scenario's name.
+    pub name: String,
+    /// Steps of a run, the start included.
+    pub steps: usize,
+    /// The truth before any noise.
+    pub world: WorldModel,
+    /// How the filter and the planners believe the object to move.
+    pub known_motion: ObjectMotion,
+    /// What the planners know; its noise is the filter's.
+    pub planning: PlanningModel,
+    /// The filter's sigma of the first feature positions, cm.
+    pub initial_feature_sigma: f64,
+    /// The control of the predetermined path.
+    pub predetermined: Control,
+    /// The surface that is drawn: the mesh's or phantom's, or the features' own.
+    pub drawn: Mesh,
+    /// What the user should know before running.
+    pub warnings: Vec<String>,
+    /// The scenario itself, for the planners' parameters.
+    pub scenario: Scenario,
+}
+
+impl Setup {
+    /// Builds the object, its surface and all models.
+    ///
+    /// # Errors
+    /// A mesh that cannot be used, features that make no solid, or a robot that starts inside the
+    /// object; each points at the place in the scenario.
+    pub fn new(scenario: &Scenario) -> Result<Self, InputError> {
+        let object = RestObject::build(scenario)?;
+        let noise = scenario.filter_noise();
+        let (robot, sensor) = (&scenario.robot, &scenario.sensor);
+        let start = Pose::new(
+            EulerAngles::from_vector(&robot.start_deg.map(f64::to_radians)),
+            robot.start_cm.point(),
+        );
+        let planning = PlanningModel {
+            noise: FilterNoise {
+                rotation_sigma: noise.rotation_sigma_rad,
+                translation_sigma: noise.translation_sigma_cm,
+                feature_motion_sigma: noise.feature_motion_sigma_cm(),
+                feature_measurement_sigma: noise.feature_measurement_sigma_cm,
+                structure_measurement_sigma: noise.structure_measurement_sigma_cm,
+            },
+            measures_structure: scenario.filter.structure == Structure::AllPairs,
+            sensor: Sensor {
+                min_range: *sensor.min_range_cm,
+                max_range: *sensor.range_cm,
+            },
+            topology: Arc::new(object.topology),
+            actions: action_set(&robot.actions),
+            clearance: *robot.clearance_cm,
+        };
+        let path = &scenario.planners.predetermined;
+        let setup = Self {
+            name: scenario.name.to_string(),
+            steps: scenario.steps.get(),
+            known_motion: scenario.believed_motion(&object.features)?,
+            world: WorldModel {
+                start,
+                motion: scenario.true_motion(&object.features)?,
+                rest: object.features,
+                noise: world_noise(scenario, noise.initial_feature_sigma_cm),
+            },
+            planning,
+            initial_feature_sigma: noise.initial_feature_sigma_cm,
+            predetermined: Control {
+                rotation: path.rotation_deg.map(f64::to_radians),
+                translation: *path.translation_cm,
+            },
+            drawn: object.drawn,
+            warnings: Vec::new(),
+            scenario: scenario.clone(),
+        };
+        setup.checked()
+    }
+
+    /// r_t t + r_d d for each feature from step `n` to `n + 1`, as filter and planners know it, cm.
+    #[must_use]
+    pub fn known_feature_motion(&self, n: usize) -> Vec<Vector3<f64>> {
+        self.world
+            .rest
+            .iter()
+            .map(|rest| self.known_motion.feature_motion(rest, n))
+            .collect()
+    }
+
+    /// Looks at the start: a robot inside the object is refused; one too near, and features that
+    /// can never be seen, are worth a warning.
+    fn checked(mut self) -> Result<Self, InputError> {
+        let at_start: Vec<Point3<f64>> = self
+            .world
+            .rest
+            .iter()
+            .map(|p| p + self.world.motion.offset(p, 1))
+            .collect();
+        let surface = Surface::new(&self.planning.topology, &at_start)
+            .map_err(|error| self.scenario.error_at("object", error))?;
+        let distance = surface.signed_distance(&self.world.start.position);
+        if distance <= 0.0 {
+            let message = format!(
+                "the robot starts {:.3} cm inside the object, where it can neither move nor see",
+                -distance
+            );
+            return Err(self
+                .scenario
+                .error_at("robot.start_cm", message)
+                .with_help("move the start, or the object, so that the robot is outside"));
+        }
+        self.check_viewpoints(&surface)?;
+        let clearance = self.planning.clearance;
+        if distance <= clearance {
+            self.warnings.push(format!(
+                "{}: the robot starts {distance:.3} cm from the object, nearer than its clearance \
+                 of {clearance} cm; it may have no safe action at first",
+                self.name
+            ));
+        }
+        let hidden = self.planning.topology.points_off_surface();
+        if !hidden.is_empty() {
+            self.warnings.push(format!(
+                "{}: features {} are not on the object's surface and will never be seen",
+                self.name,
+                numbers(hidden)
+            ));
+        }
+        Ok(self)
+    }
+}
+
+impl Setup {
+    /// A viewpoint inside the object cannot be visited.
+    fn check_viewpoints(&self, surface: &Surface) -> Result<(), InputError> {
+        let inside = |p: &Point3<f64>| surface.signed_distance(p) <= 0.0;
+        match &self.scenario.viewpoints {
+            Viewpoints::Fixed(fixed) => {
+                let Some(i) = fixed.positions_cm.iter().position(|p| inside(&p.point())) else {
+                    return Ok(());
+                };
+                let key = format!("viewpoints.fixed.positions_cm[{i}]");
+                Err(self
+                    .scenario
+                    .error_at(&key, "this viewpoint lies inside the object")
+                    .with_help("move it outside"))
+            }
+            Viewpoints::Sampled(grid) => {
+                let candidates = grid.candidates();
+                if !candidates.iter().all(inside) {
+                    return Ok(());
+                }
+                let message = format!(
+                    "none of the {} viewpoint candidates lies outside the object",
+                    candidates.len()
+                );
+                Err(self
+                    .scenario
+                    .error_at("viewpoints.sampled", message)
+                    .with_help("widen the grid, or make it finer"))
+            }
+        }
+    }
+}
+
+/// The object before it moves.
+struct RestObject {
+    features: Vec<Point3<f64>>,
+    topology: Topology,
+    drawn: Mesh,
+}
+
+impl RestObject {
+    fn build(scenario: &Scenario) -> Result<Self, InputError> {
+        let blame = |key: &'static str| move |error: SurfaceError| scenario.error_at(key, error);
+        match &scenario.object {
+            Object::Points(points) => {
+                let features: Vec<Point3<f64>> =
+                    points.positions_cm.iter().map(|p| p.point()).collect();
+                let topology = match &points.faces {
+                    Some(faces) => {
+                        let faces: Vec<[usize; 3]> =
+                            faces.iter().map(|face| face.map(|n| n.get())).collect();
+                        Topology::from_faces(&features, &faces)
+                            .map_err(blame("object.points.faces"))?
+                    }
+                    None => Topology::convex_hull(&features)
+                        .map_err(blame("object.points.positions_cm"))?,
+                };
+                let faces = topology.faces().to_vec();
+                let drawn = Mesh {
+                    vertices: features.clone(),
+                    faces,
+                };
+                Ok(Self {
+                    features,
+                    topology,
+                    drawn,
+                })
+            }
+            Object::Mesh(mesh) => {
+                let read = Mesh::read_stl(&mesh.file).map_err(|error| {
+                    scenario
+                        .error_at("object.mesh.file", error)
+                        .with_help("give an STL file of one closed surface")
+                })?;
+                let placed = read.scaled_and_moved(mesh.unit.in_cm(), *mesh.offset_cm);
+                Self::picked(placed, mesh.features, mesh.feature_seed)
+                    .map_err(blame("object.mesh.features"))
+            }
+            Object::Phantom(phantom) => {
+                let generated = heart_phantom(*phantom.spacing_cm)
+                    .map_err(blame("object.phantom.spacing_cm"))?;
+                Self::picked(generated, phantom.features, phantom.feature_seed)
+                    .map_err(blame("object.phantom.features"))
+            }
+        }
+    }
+
+    fn picked(
+        drawn: Mesh,
+        count: values::FeatureCount,
+        seed: values::Seed,
+    ) -> Result<Self, SurfaceError> {
+        let picked = pick_features(&drawn, count.get(), seed.as_u64())?;
+        let features: Vec<Point3<f64>> = picked.iter().map(|&i| drawn.vertices[i]).collect();
+        let topology = Topology::convex_hull(&features)?;
+        Ok(Self {
+            features,
+            topology,
+            drawn,
+        })
+    }
+}
+
+fn world_noise(scenario: &Scenario, initial_feature_sigma: f64) -> WorldNoise {
+    let noise = &scenario.noise;
+    WorldNoise {
+        rotation_sigma: *noise.rotation_sigma_rad,
+        translation_sigma: *noise.translation_sigma_cm,
+        feature_translation_sigma: *noise.feature_translation_sigma_cm,
+        feature_deformation_sigma: *noise.feature_deformation_sigma_cm,
+        feature_measurement_sigma: *noise.feature_measurement_sigma_cm,
+        structure_measurement_sigma: *noise.structure_measurement_sigma_cm,
+        initial_feature_sigma,
+        deformation: match noise.deformation_noise {
+            scenario::DeformationNoise::Fresh => DeformationNoise::Fresh,
+            scenario::DeformationNoise::Accumulating => DeformationNoise::Accumulating,
+        },
+        truncate_at_sigmas: noise.truncate_at_sigmas.map(|limit| *limit),
+    }
+}
+
+fn action_set(actions: &scenario::Actions) -> ActionSet {
+    let cm =
+        |list: &values::List<values::Finite>| -> Vec<f64> { list.iter().map(|v| **v).collect() };
+    let rad = |list: &values::List<values::Finite>| -> Vec<f64> {
+        list.iter().map(|v| v.to_radians()).collect()
+    };
+    let (roll, pitch, yaw) = (
+        rad(&actions.roll_deg),
+        rad(&actions.pitch_deg),
+        rad(&actions.yaw_deg),
+    );
+    let (dx, dz) = (cm(&actions.dx_cm), cm(&actions.dz_cm));
+    ActionSet::grid(
+        [&roll, &pitch, &yaw],
+        [&dx, &dz],
+        actions.max_roll_deg.to_radians(),
+        actions.max_pitch_deg.to_radians(),
+    )
+}
+
+/// A list of numbers for a message, cut where it gets long.
+pub(super) fn numbers(values: impl IntoIterator<Item = usize>) -> String {
+    const SHOWN: usize = 12;
+    let values: Vec<usize> = values.into_iter().collect();
+    let shown: Vec<String> = values.iter().take(SHOWN).map(ToString::to_string).collect();
+    let rest = values.len().saturating_sub(SHOWN);
+    let more = if rest == 0 {
+        String::new()
+    } else {
+        format!(" and {rest} more")
+    };
+    format!("{}{more}", shown.join(", "))
+}

@@ -1,0 +1,190 @@
+//! Scenario files: what the world is, and what the planners' parameters are in it.
+//!
+//! The types here are the file: a table is a struct, a key is a field, and the number types of
+//! [`values`] let no wrong value in. What several keys must agree on is checked after reading.
+//! `docs/scenario.md` is the reference for users.
+
+mod checks;
+mod motion;
+mod noise;
+mod object;
+mod planners;
+mod robot;
+#[cfg(test)]
+pub(crate) mod tests;
+pub mod values;
+mod viewpoints;
+
+use std::path::{Path, PathBuf};
+
+use adslam_deformation::ObjectMotion;
+use nalgebra::Point3;
+use serde::Deserialize;
+
+pub use motion::{
+    Anchored, AnchoredSinusoid, BackAndForthStep, Deformation, Direction, Motion, MotionBuildError,
+    Rotation, Swing, Translation,
+};
+pub use noise::{DeformationNoise, Filter, FilterNoise, Noise, Structure};
+pub use object::{LengthUnit, Mesh, MeshPlacement, Object, Phantom, Points};
+pub use planners::{
+    Combined, Global, Local, Nearest, PlannerName, Planners, Predetermined, UnknownPlanner,
+};
+pub use robot::{Actions, Robot, Sensor};
+use values::{Name, Steps};
+pub use viewpoints::{Fixed, Grid, Viewpoints};
+
+use crate::diagnostics::{Document, InputError};
+
+/// A scenario file, read and checked.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// What it is called in tables and file names.
+    pub name: Name,
+    /// What it is, for readers; default nothing.
+    #[serde(default)]
+    pub description: String,
+    /// Steps of a run, the first being the start.
+    pub steps: Steps,
+    /// The object that is mapped.
+    pub object: Object,
+    /// How a mesh given with `--mesh` is placed.
+    pub mesh_placement: Option<MeshPlacement>,
+    /// How the object moves.
+    #[serde(default)]
+    pub motion: Motion,
+    /// What the filter and the planners believe of that; default the truth. See
+    /// [`Scenario::believed_motion`].
+    pub known_motion: Option<Motion>,
+    /// The noise of the world.
+    pub noise: Noise,
+    /// Where the filter assumes something else. See [`Scenario::filter_noise`].
+    #[serde(default)]
+    pub filter: Filter,
+    /// What the robot sees.
+    pub sensor: Sensor,
+    /// The robot and its actions.
+    pub robot: Robot,
+    /// The places that the global planner's path may lead through.
+    pub viewpoints: Viewpoints,
+    /// The planners' parameters.
+    pub planners: Planners,
+    /// The text all this came from, to point at when something turns out wrong later.
+    #[serde(skip)]
+    document: Document,
+}
+
+impl Scenario {
+    /// Reads and checks the scenario file at `path`.
+    ///
+    /// # Errors
+    /// When the file cannot be read or holds anything but a valid scenario; the error points at the
+    /// place. A mesh file is not opened.
+    pub fn load(path: &Path) -> Result<Self, InputError> {
+        Self::from_document(Document::read(path)?)
+    }
+
+    /// Reads and checks a scenario from `text`, as if it were the content of the file at `path`.
+    ///
+    /// # Errors
+    /// As [`Scenario::load`].
+    pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
+        Self::from_document(Document::parse(text, path)?)
+    }
+
+    pub(crate) fn from_document(document: Document) -> Result<Self, InputError> {
+        let mut scenario: Self = document.deserialize()?;
+        checks::check(&scenario, &document)?;
+        if let Object::Mesh(mesh) = &mut scenario.object {
+            let folder = document.path().parent().unwrap_or(Path::new(""));
+            mesh.file = folder.join(&mesh.file);
+        }
+        scenario.document = document;
+        Ok(scenario)
+    }
+
+    /// The same scenario with the mesh in `file` (from the current folder, as on a command line)
+    /// for its object.
+    ///
+    /// The mesh is placed by `[mesh_placement]`; without it, as the mesh of `[object.mesh]`; without
+    /// that too, its coordinates are millimetres and stay where they are. As many features are
+    /// picked from it, with the same seed, as from the scenario's own mesh or phantom; if its object
+    /// is points, 50 with seed 1.
+    #[must_use]
+    pub fn with_mesh(mut self, file: impl Into<PathBuf>) -> Self {
+        let placement = self.mesh_placement.as_ref();
+        self.object = self.object.replaced_by_mesh(file.into(), placement);
+        self
+    }
+
+    /// The file this scenario came from.
+    pub fn path(&self) -> &Path {
+        self.document.path()
+    }
+
+    /// The scenario as text, overrides apart.
+    pub(crate) fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// An error that points at the value of `key`, such as `robot.start_cm`, in this scenario's
+    /// file (or in the configuration that set it): for what shows only when the world is built.
+    /// If the key is not in the file, it points at the table that would hold it.
+    pub fn error_at(&self, key: &str, message: impl std::fmt::Display) -> InputError {
+        self.document.error_at(key, message)
+    }
+
+    /// The noise that the filter assumes, defaults resolved.
+    pub fn filter_noise(&self) -> FilterNoise {
+        self.filter.resolved(&self.noise)
+    }
+
+    /// The feature measurement's sigma that the local planner assumes (cm).
+    pub fn local_planning_sigma_cm(&self) -> f64 {
+        let own = self.planners.local.feature_measurement_sigma_cm;
+        own.map_or(self.filter_noise().feature_measurement_sigma_cm, |sigma| {
+            *sigma
+        })
+    }
+
+    /// The feature measurement's sigma that the combined planner assumes (cm).
+    pub fn combined_planning_sigma_cm(&self) -> f64 {
+        let own = self.planners.combined.feature_measurement_sigma_cm;
+        own.map_or(self.filter_noise().feature_measurement_sigma_cm, |sigma| {
+            *sigma
+        })
+    }
+
+    /// How the object whose features rest at `rest` (world frame, cm) truly moves.
+    ///
+    /// # Errors
+    /// When fewer features were found than the anchor's number needs.
+    pub fn true_motion(&self, rest: &[Point3<f64>]) -> Result<ObjectMotion, InputError> {
+        self.built("motion", &self.motion, rest)
+    }
+
+    /// How the filter and the planners believe it to move: `[known_motion]`, or else the truth.
+    ///
+    /// # Errors
+    /// As [`Scenario::true_motion`].
+    pub fn believed_motion(&self, rest: &[Point3<f64>]) -> Result<ObjectMotion, InputError> {
+        match &self.known_motion {
+            Some(known) => self.built("known_motion", known, rest),
+            None => self.true_motion(rest),
+        }
+    }
+
+    fn built(
+        &self,
+        table: &str,
+        motion: &Motion,
+        rest: &[Point3<f64>],
+    ) -> Result<ObjectMotion, InputError> {
+        motion.object_motion(rest).map_err(|error| {
+            let key = motion.anchor().map_or("", |(_, key)| key);
+            self.error_at(&format!("{table}.{key}"), error)
+                .with_help("anchor the deformation at a feature that the object has")
+        })
+    }
+}

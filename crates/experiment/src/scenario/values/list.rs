@@ -1,0 +1,153 @@
+//! Vectors and other triples, and lists that are not empty.
+
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::Deref;
+
+use nalgebra::{Point3, Vector3};
+use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+
+use super::{Finite, ValueError};
+
+/// The longest list that a file may hold.
+pub const LONGEST_LIST: usize = 100_000;
+
+/// Three finite numbers: a position, a vector, or roll, pitch and yaw.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Vec3(Vector3<f64>);
+
+impl Vec3 {
+    /// The three numbers, if each is finite and sensible.
+    ///
+    /// # Errors
+    /// When one is not.
+    pub fn new(numbers: [f64; 3]) -> Result<Self, ValueError> {
+        for number in numbers {
+            Finite::new(number)?;
+        }
+        Ok(Self(numbers.into()))
+    }
+
+    /// The point that the vector leads to from the origin.
+    pub fn point(self) -> Point3<f64> {
+        Point3::from(self.0)
+    }
+
+    /// The numbers, taken as degrees, in radians.
+    pub fn degrees_in_rad(self) -> Vector3<f64> {
+        self.0.map(f64::to_radians)
+    }
+}
+
+impl Deref for Vec3 {
+    type Target = Vector3<f64>;
+
+    fn deref(&self) -> &Vector3<f64> {
+        &self.0
+    }
+}
+
+impl<'de> Deserialize<'de> for Vec3 {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let numbers = Triple::<Finite>::deserialize(deserializer)?;
+        Ok(Self(numbers.map(|number| *number).into()))
+    }
+}
+
+/// Three values, no more and no fewer: serde's own arrays let toml drop a fourth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Triple<T>(pub [T; 3]);
+
+impl<T> Deref for Triple<T> {
+    type Target = [T; 3];
+
+    fn deref(&self) -> &[T; 3] {
+        &self.0
+    }
+}
+
+impl<T> TryFrom<Vec<T>> for Triple<T> {
+    type Error = ValueError;
+
+    fn try_from(values: Vec<T>) -> Result<Self, ValueError> {
+        values.try_into().map(Self).map_err(|values: Vec<T>| {
+            ValueError::new(format!("these are {} values", values.len()), "write three")
+        })
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Triple<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expects = "three numbers, such as [1, 0, 2]";
+        deserializer.deserialize_any(SequenceVisitor {
+            expects,
+            of: PhantomData,
+        })
+    }
+}
+
+/// A list of at least one element and at most [`LONGEST_LIST`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct List<T>(Vec<T>);
+
+impl<T> Deref for List<T> {
+    type Target = [T];
+
+    fn deref(&self) -> &[T] {
+        &self.0
+    }
+}
+
+impl<T> TryFrom<Vec<T>> for List<T> {
+    type Error = ValueError;
+
+    fn try_from(elements: Vec<T>) -> Result<Self, ValueError> {
+        match elements.len() {
+            0 => Err(ValueError::new(
+                "the list is empty",
+                "write at least one element",
+            )),
+            1..=LONGEST_LIST => Ok(Self(elements)),
+            many => Err(ValueError::new(
+                format!("the list has {many} elements"),
+                format!("write at most {LONGEST_LIST}"),
+            )),
+        }
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for List<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expects = "a list in brackets";
+        deserializer.deserialize_any(SequenceVisitor {
+            expects,
+            of: PhantomData,
+        })
+    }
+}
+
+/// Reads a sequence of `T` into a `C`. It is checked in here, where an error still gets its place.
+struct SequenceVisitor<T, C> {
+    expects: &'static str,
+    of: PhantomData<(T, C)>,
+}
+
+impl<'de, T, C> Visitor<'de> for SequenceVisitor<T, C>
+where
+    T: Deserialize<'de>,
+    C: TryFrom<Vec<T>, Error = ValueError>,
+{
+    type Value = C;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.expects)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<C, A::Error> {
+        let mut elements: Vec<T> = Vec::new();
+        while let Some(element) = access.next_element()? {
+            elements.push(element);
+        }
+        C::try_from(elements).map_err(A::Error::custom)
+    }
+}

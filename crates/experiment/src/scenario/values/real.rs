@@ -1,0 +1,184 @@
+//! Real numbers within bounds.
+
+use std::fmt;
+use std::ops::Deref;
+
+use serde::de::{Deserialize, Deserializer, Error, Visitor};
+
+use super::ValueError;
+
+/// No number in a file may be larger than this: a world of ten kilometres, a thousand times what a
+/// robot of this kind meets, and far from where squares and sums lose their meaning.
+pub const LARGEST: f64 = 1e6;
+
+/// No number that has to be positive may be smaller than this, so that its square is no zero.
+pub const SMALLEST: f64 = 1e-9;
+
+/// A finite number of at most a million either way.
+fn finite(value: f64, remedy: &str) -> Result<f64, ValueError> {
+    if value.is_nan() {
+        Err(ValueError::new("nan is not a number", remedy))
+    } else if value.is_infinite() {
+        Err(ValueError::new(
+            format!("{value} is not a finite number"),
+            remedy,
+        ))
+    } else if value.abs() > LARGEST {
+        Err(ValueError::new(
+            format!("{value} is out of any sensible range"),
+            remedy,
+        ))
+    } else {
+        Ok(value)
+    }
+}
+
+macro_rules! number {
+    ($(#[$doc:meta])* $name:ident, $expects:literal, $problem:literal, $allowed:expr) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+        pub struct $name(f64);
+
+        impl $name {
+            /// The value, if it is allowed.
+            ///
+            /// # Errors
+            /// When it is not; the error says why and what to write.
+            pub fn new(value: f64) -> Result<Self, ValueError> {
+                const REMEDY: &str = concat!("write ", $expects);
+                let allowed: fn(f64) -> bool = $allowed;
+                let value = finite(value, REMEDY)?;
+                if allowed(value) {
+                    Ok(Self(value))
+                } else {
+                    Err(ValueError::new(format!(concat!("{} ", $problem), value), REMEDY))
+                }
+            }
+        }
+
+        impl Deref for $name {
+            type Target = f64;
+
+            fn deref(&self) -> &f64 {
+                &self.0
+            }
+        }
+
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                deserializer.deserialize_any(NumberVisitor { expects: $expects, new: Self::new })
+            }
+        }
+    };
+}
+
+number!(
+    /// Any number, up to [`LARGEST`] either way.
+    Finite,
+    "a number between -1000000 and 1000000",
+    "is no number",
+    |_| true
+);
+number!(
+    /// A number above zero (at least [`SMALLEST`]).
+    Positive,
+    "a number above 0, such as 0.5",
+    "is not above 0",
+    |value| value >= SMALLEST
+);
+number!(
+    /// Zero or a [`Positive`] number.
+    NonNegative,
+    "0 or a number above it, such as 0.02",
+    "is below 0, or too near to it",
+    |value| value == 0.0 || value >= SMALLEST
+);
+number!(
+    /// A part of a whole: above 0, at most 1.
+    Fraction,
+    "a number above 0 and up to 1, such as 0.1",
+    "is no fraction",
+    |value| (SMALLEST..=1.0).contains(&value)
+);
+number!(
+    /// Where a Gaussian is cut off, in multiples of its sigma: 0.5 to 100. Below that the rest has
+    /// little in common with a Gaussian, and drawing from it by rejection takes long.
+    Truncation,
+    "a number of sigmas between 0.5 and 100, such as 2.0",
+    "is no sensible number of sigmas",
+    |value| (0.5..=100.0).contains(&value)
+);
+number!(
+    /// Distance between the vertices of the heart phantom: 0.1 to 2 cm. Finer meshes take minutes,
+    /// coarser ones lose the shape.
+    Spacing,
+    "a distance between 0.1 and 2 cm, such as 0.3",
+    "cm is no sensible distance between vertices",
+    |value| (0.1..=2.0).contains(&value)
+);
+
+impl Finite {
+    /// A default, whose validity is in plain sight.
+    pub(crate) const fn default_of(value: f64) -> Self {
+        Self(value)
+    }
+
+    /// The number, taken as degrees, in radians.
+    pub fn degrees_in_rad(self) -> f64 {
+        self.0.to_radians()
+    }
+}
+
+impl NonNegative {
+    /// A default, whose validity is in plain sight.
+    pub(crate) const fn default_of(value: f64) -> Self {
+        Self(value)
+    }
+
+    /// The number, taken as degrees, in radians.
+    pub fn degrees_in_rad(self) -> f64 {
+        self.0.to_radians()
+    }
+}
+
+impl Spacing {
+    /// A default, whose validity is in plain sight.
+    pub(crate) const fn default_of(value: f64) -> Self {
+        Self(value)
+    }
+}
+
+/// Reads integers and floats alike. The value is checked in here, where an error still gets its
+/// place.
+struct NumberVisitor<T> {
+    expects: &'static str,
+    new: fn(f64) -> Result<T, ValueError>,
+}
+
+impl<T> Visitor<'_> for NumberVisitor<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.expects)
+    }
+
+    fn visit_f64<E: Error>(self, value: f64) -> Result<T, E> {
+        (self.new)(value).map_err(E::custom)
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<T, E> {
+        self.visit_f64(value as f64)
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<T, E> {
+        self.visit_f64(value as f64)
+    }
+
+    fn visit_i128<E: Error>(self, value: i128) -> Result<T, E> {
+        self.visit_f64(value as f64)
+    }
+
+    fn visit_u128<E: Error>(self, value: u128) -> Result<T, E> {
+        self.visit_f64(value as f64)
+    }
+}

@@ -1,0 +1,239 @@
+//! Running everything that a configuration asks for.
+
+use std::path::{Path, PathBuf};
+
+use crate::ExperimentError;
+use crate::config::{Config, ExperimentPlan, PublishedScenario};
+use crate::diagnostics::InputError;
+use crate::metrics::RunSummary;
+use crate::run::{Batch, Interrupt, Setup};
+use crate::scenario::{Object, PlannerName};
+
+/// What of a configuration is run, and how often.
+#[derive(Clone, Debug, Default)]
+pub struct TablesOptions {
+    /// Runs of each planner; the configuration's number where absent.
+    pub runs: Option<usize>,
+    /// Only the experiments with these labels; all where empty.
+    pub only: Vec<String>,
+    /// An STL file for the object of every experiment whose object is a mesh or a phantom.
+    pub mesh: Option<PathBuf>,
+}
+
+/// A configuration made ready to run: all files read, all surfaces built.
+#[derive(Debug)]
+pub struct TablePlan {
+    title: String,
+    runs: usize,
+    first_seed: u64,
+    experiments: Vec<(ExperimentPlan, Setup)>,
+}
+
+/// Told after each run: how many have finished.
+pub type TablesProgress<'a> = &'a (dyn Fn() + Sync);
+
+/// The results of a configuration.
+#[derive(Clone, Debug)]
+pub struct Tables {
+    /// The configuration's title.
+    pub title: String,
+    /// Runs of each planner that were asked for.
+    pub runs: usize,
+    /// The experiments, in the configuration's order.
+    pub experiments: Vec<ExperimentTables>,
+    /// Runs that failed, and why.
+    pub failures: Vec<String>,
+    /// Whether the user stopped it before all runs were done.
+    pub interrupted: bool,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// The results of one experiment.
+#[derive(Clone, Debug)]
+pub struct ExperimentTables {
+    /// Its label.
+    pub label: String,
+    /// Steps of a run.
+    pub steps: usize,
+    /// Its planners, in the configuration's order.
+    pub planners: Vec<PlannerRuns>,
+    /// The published values.
+    pub published: Option<PublishedScenario>,
+}
+
+/// The finished runs of one planner, by seed.
+#[derive(Clone, Debug)]
+pub struct PlannerRuns {
+    /// Which planner.
+    pub planner: PlannerName,
+    /// Its runs.
+    pub runs: Vec<RunSummary>,
+}
+
+impl TablePlan {
+    /// Reads the configuration at `path` and builds what it names.
+    ///
+    /// # Errors
+    /// Anything wrong with a file, an unknown label, or no runs to do.
+    pub fn load(path: &Path, options: &TablesOptions) -> Result<Self, InputError> {
+        Self::new(Config::load(path)?, options)
+    }
+
+    /// Builds what a configuration names.
+    ///
+    /// # Errors
+    /// As [`TablePlan::load`].
+    pub fn new(config: Config, options: &TablesOptions) -> Result<Self, InputError> {
+        let Config {
+            path,
+            title,
+            runs,
+            first_seed,
+            experiments,
+        } = config;
+        let runs = options.runs.unwrap_or(runs);
+        let about = |message: String| InputError::about_file(&path, message);
+        if runs == 0 {
+            return Err(about("there are 0 runs to do".to_owned()).with_help("ask for at least 1"));
+        }
+        let labels: Vec<&str> = experiments.iter().map(|plan| plan.label.as_str()).collect();
+        if let Some(unknown) = options
+            .only
+            .iter()
+            .find(|wish| !labels.contains(&wish.as_str()))
+        {
+            let message = format!("{} has no experiment called {unknown:?}", path.display());
+            return Err(about(message).with_help(format!("there are {}", labels.join(", "))));
+        }
+        let wanted = experiments
+            .into_iter()
+            .filter(|plan| options.only.is_empty() || options.only.contains(&plan.label));
+        let mut ready = Vec::new();
+        for mut plan in wanted {
+            if let (Some(file), Object::Mesh(_) | Object::Phantom(_)) =
+                (&options.mesh, &plan.scenario.object)
+            {
+                plan.scenario = plan.scenario.with_mesh(file);
+            }
+            let setup = Setup::new(&plan.scenario)?;
+            ready.push((plan, setup));
+        }
+        Ok(Self {
+            title,
+            runs,
+            first_seed,
+            experiments: ready,
+        })
+    }
+
+    /// How many runs there are in all.
+    #[must_use]
+    pub fn total_runs(&self) -> usize {
+        self.experiments
+            .iter()
+            .map(|(plan, _)| plan.planners.len() * self.runs)
+            .sum()
+    }
+
+    /// Does all runs in parallel. A run that fails, or an interruption, loses none of the others.
+    #[must_use]
+    pub fn run(&self, interrupt: &Interrupt, progress: TablesProgress<'_>) -> Tables {
+        let mut batch = Vec::with_capacity(self.total_runs());
+        for (plan, setup) in &self.experiments {
+            for &planner in &plan.planners {
+                for k in 0..self.runs as u64 {
+                    let seed = self.first_seed.wrapping_add(k);
+                    batch.push(Batch {
+                        setup,
+                        planner,
+                        seed,
+                    });
+                }
+            }
+        }
+        let mut results = Batch::run_all(&batch, interrupt, progress).into_iter();
+        let mut tables = Tables {
+            title: self.title.clone(),
+            runs: self.runs,
+            experiments: Vec::new(),
+            failures: Vec::new(),
+            interrupted: false,
+            warnings: Vec::new(),
+        };
+        for (plan, setup) in &self.experiments {
+            tables.warn(setup.warnings.iter().cloned());
+            let planners = plan.planners.iter().map(|&planner| {
+                let runs = results
+                    .by_ref()
+                    .take(self.runs)
+                    .filter_map(|r| tables.sort_in(r));
+                PlannerRuns {
+                    planner,
+                    runs: runs.collect(),
+                }
+            });
+            let planners = planners.collect();
+            tables.experiments.push(ExperimentTables {
+                label: plan.label.clone(),
+                steps: setup.steps,
+                planners,
+                published: plan.published.clone(),
+            });
+        }
+        tables
+    }
+}
+
+impl Tables {
+    /// The summary of a run that finished; notes what became of any other.
+    fn sort_in(&mut self, result: crate::run::BatchResult) -> Option<RunSummary> {
+        match result {
+            Ok(outcome) => {
+                self.warn(outcome.warnings);
+                Some(outcome.summary)
+            }
+            Err(ExperimentError::Interrupted) => {
+                self.interrupted = true;
+                None
+            }
+            Err(error) => {
+                self.failures.push(error.to_string());
+                None
+            }
+        }
+    }
+
+    /// Whether everything that was asked for is there.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        !self.interrupted && self.failures.is_empty()
+    }
+
+    /// An error if it is not.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Runs`] where runs failed, [`ExperimentError::Interrupted`] where they were
+    /// not done.
+    pub fn into_result(self) -> Result<(), ExperimentError> {
+        if !self.failures.is_empty() {
+            return Err(ExperimentError::Runs {
+                failures: self.failures,
+            });
+        }
+        if self.interrupted {
+            Err(ExperimentError::Interrupted)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Adds warnings that are not there yet: every seed of a scenario may give the same.
+    fn warn(&mut self, warnings: impl IntoIterator<Item = String>) {
+        for warning in warnings {
+            if !self.warnings.contains(&warning) {
+                self.warnings.push(warning);
+            }
+        }
+    }
+}

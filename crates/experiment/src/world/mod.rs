@@ -1,0 +1,9 @@
+//! The simulated world: the only place that knows the truth and draws random numbers.
+
+mod noise;
+mod streams;
+mod truth;
+
+pub use noise::{DeformationNoise, WorldNoise};
+pub use streams::{Stream, stream};
+pub use truth::{SimulatedMeasurements, World, WorldModel};

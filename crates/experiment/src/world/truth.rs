@@ -1,0 +1,321 @@
+//! The true robot and the true object.
+
+use adslam_deformation::ObjectMotion;
+use adslam_models::{Control, FeatureId, Pose, feature_measurement, move_pose};
+use nalgebra::{Point3, Vector3, Vector6};
+use rand_chacha::ChaCha12Rng;
+
+use super::{DeformationNoise, Stream, WorldNoise, stream};
+
+/// What is true before any noise is drawn.
+#[derive(Clone, Debug)]
+pub struct WorldModel {
+    /// The robot's pose at step 1.
+    pub start: Pose,
+    /// The features' rest positions, cm, world.
+    pub rest: Vec<Point3<f64>>,
+    /// How the object moves.
+    pub motion: ObjectMotion,
+    /// How far from the plan everything is.
+    pub noise: WorldNoise,
+}
+
+/// What the robot measures at one step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulatedMeasurements {
+    /// The features seen and their measurements, cm, body frame.
+    pub features: Vec<(FeatureId, Vector3<f64>)>,
+    /// For each feature i the sum over all j of the measured p_i − p_j, cm: as good as all pairs.
+    pub structure_sums: Vec<Vector3<f64>>,
+}
+
+/// The truth of one run, moving from step to step.
+#[derive(Clone, Debug)]
+pub struct World<'a> {
+    model: &'a WorldModel,
+    step: usize,
+    pose: Pose,
+    /// Where each feature is without its deformation.
+    base: Vec<Point3<f64>>,
+    features: Vec<Point3<f64>>,
+    motion_stream: ChaCha12Rng,
+    deformation_stream: ChaCha12Rng,
+    sensor_stream: ChaCha12Rng,
+}
+
+impl<'a> World<'a> {
+    /// The world at step 1.
+    #[must_use]
+    pub fn new(model: &'a WorldModel, seed: u64) -> Self {
+        let mut world = Self {
+            model,
+            step: 1,
+            pose: model.start,
+            base: model.rest.clone(),
+            features: Vec::new(),
+            motion_stream: stream(seed, Stream::Motion),
+            deformation_stream: stream(seed, Stream::Deformation),
+            sensor_stream: stream(seed, Stream::Sensor),
+        };
+        world.show_features();
+        world
+    }
+
+    /// n, from 1.
+    #[must_use]
+    pub fn step(&self) -> usize {
+        self.step
+    }
+
+    /// The true pose.
+    #[must_use]
+    pub fn pose(&self) -> &Pose {
+        &self.pose
+    }
+
+    /// The true features, cm, world.
+    #[must_use]
+    pub fn features(&self) -> &[Point3<f64>] {
+        &self.features
+    }
+
+    /// The features as they are known at the start: each off by the first estimate's error.
+    pub fn first_estimate(&mut self) -> Vec<Point3<f64>> {
+        let noise = &self.model.noise;
+        let stream = &mut self.sensor_stream;
+        self.features
+            .iter()
+            .map(|p| p + noise.standard_vector(stream) * noise.initial_feature_sigma)
+            .collect()
+    }
+
+    /// Moves robot and object to the next step, eq. (2).
+    pub fn advance(&mut self, control: &Control) {
+        let noise = &self.model.noise;
+        let w = Vector6::from_fn(|k, _| {
+            let sigma = if k < 3 {
+                noise.rotation_sigma
+            } else {
+                noise.translation_sigma
+            };
+            sigma * noise.standard(&mut self.motion_stream)
+        });
+        self.pose = move_pose(&self.pose, control, &w);
+
+        let translation = self.model.motion.translation_step(self.step);
+        for base in &mut self.base {
+            let w_t = noise.standard_vector(&mut self.deformation_stream);
+            *base += translation + w_t * noise.feature_translation_sigma;
+        }
+        self.step += 1;
+        self.show_features();
+    }
+
+    /// p = b + r_d D(n) + w_d. Where the noise accumulates it moves the base as well; the start
+    /// then has none.
+    fn show_features(&mut self) {
+        let WorldModel {
+            motion,
+            noise,
+            rest,
+            ..
+        } = self.model;
+        let shown = self.base.iter_mut().zip(rest).map(|(base, rest)| {
+            let w_d = noise.standard_vector(&mut self.deformation_stream)
+                * noise.feature_deformation_sigma;
+            match noise.deformation {
+                DeformationNoise::Fresh => *base + motion.offset(rest, self.step) + w_d,
+                DeformationNoise::Accumulating => {
+                    if self.step > 1 {
+                        *base += w_d;
+                    }
+                    *base + motion.offset(rest, self.step)
+                }
+            }
+        });
+        self.features = shown.collect();
+    }
+
+    /// Measures the visible features and the structure. Noise is drawn for every feature, seen or
+    /// not, so that what one planner sees does not change what another one meets.
+    pub fn measure(&mut self, visible: &[FeatureId]) -> SimulatedMeasurements {
+        let noise = &self.model.noise;
+        let stream = &mut self.sensor_stream;
+        let errors: Vec<Vector3<f64>> = self
+            .features
+            .iter()
+            .map(|_| noise.standard_vector(stream))
+            .collect();
+        let of_structure: Vec<Vector3<f64>> = self
+            .features
+            .iter()
+            .map(|_| noise.standard_vector(stream))
+            .collect();
+        let features = visible
+            .iter()
+            .map(|&id| {
+                let z = feature_measurement(&self.pose, &self.features[id.0]);
+                (id, z + errors[id.0] * noise.feature_measurement_sigma)
+            })
+            .collect();
+        let structure_sums = summed_structure(
+            &self.features,
+            &of_structure,
+            noise.structure_measurement_sigma,
+        );
+        SimulatedMeasurements {
+            features,
+            structure_sums,
+        }
+    }
+}
+
+/// The sums over all pairs: Σⱼ (p_i − p_j) + √M σ (ξ_i − mean ξ). The noise has the covariance
+/// σ² (M I − 11ᵀ) that the sum of M(M−1)/2 independent measurements has.
+fn summed_structure(
+    features: &[Point3<f64>],
+    xi: &[Vector3<f64>],
+    sigma: f64,
+) -> Vec<Vector3<f64>> {
+    let count = features.len() as f64;
+    let total: Vector3<f64> = features.iter().map(|p| p.coords).sum();
+    let mean_xi = xi.iter().sum::<Vector3<f64>>() / count;
+    let scale = sigma * count.sqrt();
+    features
+        .iter()
+        .zip(xi)
+        .map(|(p, xi)| p.coords * count - total + (xi - mean_xi) * scale)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NOISE: WorldNoise = WorldNoise {
+        rotation_sigma: 0.02,
+        translation_sigma: 0.03,
+        feature_translation_sigma: 0.03,
+        feature_deformation_sigma: 0.05,
+        feature_measurement_sigma: 0.02,
+        structure_measurement_sigma: 0.5,
+        initial_feature_sigma: 0.02,
+        deformation: DeformationNoise::Fresh,
+        truncate_at_sigmas: None,
+    };
+
+    fn model(noise: WorldNoise) -> WorldModel {
+        let rest = (0..5)
+            .map(|i| Point3::new(f64::from(i), 1.0, f64::from(i * i)))
+            .collect();
+        WorldModel {
+            start: Pose::default(),
+            rest,
+            motion: ObjectMotion::default(),
+            noise,
+        }
+    }
+
+    #[test]
+    fn noise_does_not_depend_on_what_is_seen_or_done() {
+        let model = model(NOISE);
+        let (mut a, mut b) = (World::new(&model, 7), World::new(&model, 7));
+        let turn = Control {
+            rotation: Vector3::z(),
+            ..Control::default()
+        };
+        for _ in 0..3 {
+            a.advance(&Control::default());
+            b.advance(&turn);
+            let all: Vec<FeatureId> = (0..5).map(FeatureId).collect();
+            assert_eq!(
+                a.measure(&[]).structure_sums,
+                b.measure(&all).structure_sums
+            );
+        }
+        assert_eq!(a.features(), b.features());
+        assert_ne!(
+            World::new(&model, 8).features(),
+            World::new(&model, 7).features()
+        );
+    }
+
+    /// Variance over many runs of one coordinate after some steps: σ_t² per step, and σ_d² once
+    /// (fresh) or per step (accumulating).
+    #[test]
+    fn deformation_noise_is_fresh_or_accumulates() {
+        for (deformation, expected) in [
+            (
+                DeformationNoise::Fresh,
+                16.0 * 0.03f64.powi(2) + 0.05f64.powi(2),
+            ),
+            (
+                DeformationNoise::Accumulating,
+                16.0 * (0.03f64.powi(2) + 0.05f64.powi(2)),
+            ),
+        ] {
+            let model = model(WorldNoise {
+                deformation,
+                ..NOISE
+            });
+            let mut squares = 0.0;
+            let runs = 1500;
+            for seed in 0..runs {
+                let mut world = World::new(&model, seed);
+                for _ in 0..16 {
+                    world.advance(&Control::default());
+                }
+                let errors = world
+                    .features()
+                    .iter()
+                    .zip(&model.rest)
+                    .map(|(p, r)| (p - r).x);
+                squares += errors.map(|e| e * e).sum::<f64>() / 5.0;
+            }
+            let variance = squares / runs as f64;
+            // The standard error of a variance from 7500 draws is 1.6 %.
+            assert!(
+                (variance / expected - 1.0).abs() < 0.08,
+                "{variance} is not {expected}"
+            );
+        }
+    }
+
+    /// The sums must have the mean and covariance of summed independent pairs.
+    #[test]
+    fn structure_sums_are_distributed_as_summed_pairs() {
+        let model = model(NOISE);
+        let (count, runs) = (5.0, 4000);
+        let mut world = World::new(&model, 3);
+        let features = world.features().to_vec();
+        let total: Vector3<f64> = features.iter().map(|p| p.coords).sum();
+        let (mut own, mut cross, mut sum) = (0.0, 0.0, 0.0);
+        for _ in 0..runs {
+            let sums = world.measure(&[]).structure_sums;
+            let noise = |i: usize| (sums[i] - (features[i].coords * count - total)).x;
+            own += noise(0) * noise(0);
+            cross += noise(1) * noise(3);
+            sum += (0..5).map(noise).sum::<f64>().abs();
+        }
+        let variance = 0.25;
+        assert!((own / f64::from(runs) / (variance * 4.0) - 1.0).abs() < 0.1);
+        assert!((cross / f64::from(runs) / -variance - 1.0).abs() < 0.3);
+        assert!(
+            sum < 1e-6,
+            "the noise of all pairs cancels in the sum over features"
+        );
+    }
+
+    #[test]
+    fn truncation_cuts_the_tails() {
+        let noise = WorldNoise {
+            truncate_at_sigmas: Some(2.0),
+            ..NOISE
+        };
+        let mut generator = stream(1, Stream::Sensor);
+        let largest = (0..5000)
+            .map(|_| noise.standard(&mut generator).abs())
+            .fold(0.0, f64::max);
+        assert!(largest <= 2.0 && largest > 1.9);
+    }
+}
