@@ -60,9 +60,7 @@ impl InputError {
     pub fn unreadable(path: &Path, cause: io::Error) -> Self {
         let mut error = Self::about_file(path, format_args!("cannot read {}", path.display()));
         error.0.help = Some(match cause.kind() {
-            io::ErrorKind::NotFound => "check the path; it counts from where you are, or, in a \
-                                        file, from that file's folder"
-                .to_owned(),
+            io::ErrorKind::NotFound => "check the path".to_owned(),
             io::ErrorKind::PermissionDenied => "make the file readable".to_owned(),
             _ => "give the path of a readable file".to_owned(),
         });
@@ -89,6 +87,13 @@ impl InputError {
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());
+        self
+    }
+
+    /// The same error with this remedy, if it had none.
+    #[must_use]
+    fn with_help_if_none(mut self, help: &str) -> Self {
+        self.0.help.get_or_insert_with(|| help.to_owned());
         self
     }
 

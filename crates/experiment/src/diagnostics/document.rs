@@ -145,10 +145,12 @@ impl Document {
     /// # Errors
     /// When a key is unknown or missing, or a value is not what `T` wants there.
     pub(crate) fn deserialize<T: DeserializeOwned>(&self) -> Result<T, InputError> {
-        let tables = toml::Spanned::new(0..0, self.tables()?);
-        T::deserialize(Deserializer::from(tables)).map_err(|error| {
+        let tables = self.tables()?;
+        let root = toml::Spanned::new(0..0, tables.clone());
+        T::deserialize(Deserializer::from(root)).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
-            self.error_in(span, "").explained(explain(&error))
+            let keys = key_path::keys_of_table_at(&tables, &span);
+            self.error_in(span, "").explained(explain(&error, &keys))
         })
     }
 
@@ -271,7 +273,9 @@ fn table_at<'a, 'i>(root: &'a DeTable<'i>, path: &str) -> Option<&'a DeTable<'i>
 fn parse(source: &Source) -> Result<DeTable<'_>, InputError> {
     let parsed = DeTable::parse(&source.text).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
-        InputError::in_text(&source.path, &source.text, span, "").explained(explain(&error))
+        InputError::in_text(&source.path, &source.text, span, "")
+            .explained(explain(&error, &[]))
+            .with_help_if_none("this is not TOML; https://toml.io shows how it is written")
     })?;
     Ok(parsed.into_inner())
 }

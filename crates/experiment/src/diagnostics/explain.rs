@@ -12,9 +12,9 @@ pub(super) struct Explanation {
 
 /// Puts an error of the toml parser or of a `Deserialize` in better words.
 ///
-/// Errors of our own number types read "what is wrong; what to write"; the two parts become message
+/// `choices` are the keys of the table that the error points at. Errors of our own number types read "what is wrong; what to write"; the two parts become message
 /// and help.
-pub(super) fn explain(error: &toml::de::Error) -> Explanation {
+pub(super) fn explain(error: &toml::de::Error, choices: &[&str]) -> Explanation {
     let text = error.message();
     let quoted: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
     let explanation = |message: String, label: &str, help: String| Explanation {
@@ -45,21 +45,28 @@ pub(super) fn explain(error: &toml::de::Error) -> Explanation {
     if text.starts_with("missing field")
         && let Some(missing) = quoted.first()
     {
-        let help = format!("add `{missing} = …` here; docs/scenario.md says what it means");
-        return explanation(
-            format!("the key `{missing}` is missing"),
-            "in this part",
-            help,
-        );
+        let message = format!("the key `{missing}` is missing");
+        let at_root = error.span().is_none_or(|span| span == (0..0));
+        let (label, place) = if at_root {
+            (
+                "in the file's own keys",
+                "above the first [table], or as a [table] of its own",
+            )
+        } else {
+            ("in this part", "here")
+        };
+        let help = format!("add `{missing} = …` {place}; docs/scenario.md says what it means");
+        return explanation(message, label, help);
     }
     if text.starts_with("wanted exactly 1 element") || text == "wanted string or table" {
-        let help = "keep one of the choices and its keys, such as `sampled = { … }`; \
-                    docs/scenario.md lists them";
-        return explanation(
-            "exactly one choice must be made here".into(),
-            "here",
-            help.into(),
-        );
+        let message = "exactly one choice must be made here".to_owned();
+        let help = match choices {
+            [] => "write one choice as a table, or \"none\" where that is one of them; \
+                   docs/scenario.md lists them"
+                .to_owned(),
+            chosen => format!("keep one of {}", in_backticks(chosen)),
+        };
+        return explanation(message, "in this part", help);
     }
     if let Some((wrong, expected)) = text
         .strip_prefix("invalid type: ")
@@ -105,6 +112,14 @@ fn suggestion(unknown: &str, known: &[&str], kind: &str) -> String {
         None if known.is_empty() => "nothing is expected here; take it out".to_owned(),
         None => format!("the {kind} here: {list}"),
     }
+}
+
+fn in_backticks(words: &[&str]) -> String {
+    words
+        .iter()
+        .map(|word| format!("`{word}`"))
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// The word of `known` that `unknown` may have been meant for: the one with the fewest edits, if

@@ -79,6 +79,22 @@ pub(super) fn find<'a, 'i>(root: &'a DeTable<'i>, path: &[Step]) -> Option<Place
     Some(place)
 }
 
+/// The keys of the table, at any depth outside arrays, that stands at `span`.
+pub(super) fn keys_of_table_at<'a>(table: &'a DeTable<'_>, span: &Range<usize>) -> Vec<&'a str> {
+    for (_, value) in table {
+        if let DeValue::Table(inner) = value.get_ref() {
+            if value.span() == *span {
+                return inner.keys().map(|key| &**key.get_ref()).collect();
+            }
+            let found = keys_of_table_at(inner, span);
+            if !found.is_empty() {
+                return found;
+            }
+        }
+    }
+    Vec::new()
+}
+
 fn child<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> Option<Place<'a, 'i>> {
     let (key, value) = table.iter().find(|(known, _)| known.get_ref() == key)?;
     Some(Place {

@@ -5,6 +5,7 @@ mod documented;
 mod shipped;
 mod wrong_files;
 mod wrong_values;
+mod wrong_worlds;
 
 use std::path::{Path, PathBuf};
 
@@ -31,6 +32,12 @@ fn parsed(text: &str) -> Result<Scenario, InputError> {
 fn polygon_with(from: &str, to: &str) -> Result<Scenario, InputError> {
     assert!(POLYGON.contains(from), "the polygon has no {from:?}");
     parsed(&POLYGON.replacen(from, to, 1))
+}
+
+/// The polygon with one text replaced by another is refused.
+#[track_caller]
+fn refused(from: &str, to: &str, message: &str, pointed_at: &str, remedy: &str) {
+    assert_error(polygon_with(from, to), message, pointed_at, remedy);
 }
 
 /// Asserts what an error says, what its caret points at, and what remedy it gives.

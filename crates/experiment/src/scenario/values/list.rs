@@ -71,7 +71,10 @@ impl<T> TryFrom<Vec<T>> for Triple<T> {
 
     fn try_from(values: Vec<T>) -> Result<Self, ValueError> {
         values.try_into().map(Self).map_err(|values: Vec<T>| {
-            ValueError::new(format!("these are {} values", values.len()), "write three")
+            ValueError::new(
+                format!("these are {} values", values.len()),
+                "write three, such as [1, 0, 2]",
+            )
         })
     }
 }
