@@ -1,8 +1,12 @@
 //! The combined planner, Section III-D.
 
+use nalgebra::Point3;
+
 use crate::goal::nearest_first;
 use crate::local::decide_by_trace;
-use crate::{Decision, Goals, Planner, PlanningError, PlanningNoise, SafeActions, Situation};
+use crate::{
+    Decision, Goals, Planner, PlanningError, PlanningNoise, SafeActions, Score, Situation,
+};
 
 /// nᵤ, how many of the safe actions nearest to the goal are scored.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +40,7 @@ pub struct CombinedPlanner {
     goals: Goals,
     nearest: Nearest,
     noise: PlanningNoise,
+    scores: Vec<Score>,
 }
 
 impl CombinedPlanner {
@@ -46,6 +51,7 @@ impl CombinedPlanner {
             goals,
             nearest,
             noise,
+            scores: Vec::new(),
         }
     }
 }
@@ -59,11 +65,26 @@ impl Planner for CombinedPlanner {
         let kept = nearest
             .into_iter()
             .take(self.nearest.of(safe.candidates().len()));
-        let decision = decide_by_trace(situation, &self.noise, &after, &safe, kept)?;
+        let decision = decide_by_trace(
+            situation,
+            &self.noise,
+            &after,
+            &safe,
+            kept,
+            &mut self.scores,
+        )?;
         Ok(Decision {
             goal: Some(goal),
             ..decision
         })
+    }
+
+    fn scores(&self) -> &[Score] {
+        &self.scores
+    }
+
+    fn viewpoints(&self) -> &[Point3<f64>] {
+        self.goals.viewpoints()
     }
 }
 

@@ -1,5 +1,7 @@
 //! The global planner, Section III-C.
 
+use nalgebra::Point3;
+
 use crate::goal::nearest_first;
 use crate::{Decision, Goals, Planner, PlanningError, SafeActions, Situation};
 
@@ -28,5 +30,9 @@ impl Planner for GlobalPlanner {
             goal: Some(goal),
             ..safe.decision(chosen)
         })
+    }
+
+    fn viewpoints(&self) -> &[Point3<f64>] {
+        self.goals.viewpoints()
     }
 }

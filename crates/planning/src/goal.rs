@@ -29,6 +29,12 @@ impl Goals {
         })
     }
 
+    /// All of them, in order.
+    #[must_use]
+    pub fn viewpoints(&self) -> &[Point3<f64>] {
+        &self.viewpoints
+    }
+
     /// The goal for a robot estimated to be at `position`: the current viewpoint, or the next one if
     /// that has been reached; after the last comes the first.
     pub fn next_from(&mut self, position: &Point3<f64>) -> (usize, Point3<f64>) {

@@ -32,7 +32,7 @@ pub use global::GlobalPlanner;
 pub use goal::Goals;
 pub use local::LocalPlanner;
 pub use model::PlanningModel;
-pub use planner::{Decision, Planner, Situation};
+pub use planner::{Decision, Planner, Score, Situation};
 pub use predetermined::PredeterminedPlanner;
 pub use safety::{Candidate, SafeActions};
 pub use scoring::{ActionScorer, PlanningNoise};

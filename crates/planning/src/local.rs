@@ -3,20 +3,25 @@
 use adslam_surface::Surface;
 
 use crate::{
-    ActionScorer, Decision, Planner, PlanningError, PlanningNoise, SafeActions, Situation,
+    ActionScorer, Candidate, Decision, Planner, PlanningError, PlanningNoise, SafeActions, Score,
+    Situation,
 };
 
 /// Takes the safe action with the smallest trace of the next covariance, eqs. (6), (7).
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct LocalPlanner {
     noise: PlanningNoise,
+    scores: Vec<Score>,
 }
 
 impl LocalPlanner {
     /// A planner that assumes this noise.
     #[must_use]
     pub const fn new(noise: PlanningNoise) -> Self {
-        Self { noise }
+        Self {
+            noise,
+            scores: Vec::new(),
+        }
     }
 }
 
@@ -24,7 +29,12 @@ impl Planner for LocalPlanner {
     fn decide(&mut self, situation: &Situation<'_>) -> Result<Decision, PlanningError> {
         let (now, after) = situation.surfaces()?;
         let safe = SafeActions::find(situation, &now, &after)?;
-        decide_by_trace(situation, &self.noise, &after, &safe, safe.candidates())
+        let all = safe.candidates();
+        decide_by_trace(situation, &self.noise, &after, &safe, all, &mut self.scores)
+    }
+
+    fn scores(&self) -> &[Score] {
+        &self.scores
     }
 }
 
@@ -35,14 +45,27 @@ pub(crate) fn decide_by_trace<'c>(
     noise: &PlanningNoise,
     after: &Surface,
     safe: &SafeActions,
-    candidates: impl IntoIterator<Item = &'c crate::Candidate, IntoIter: ExactSizeIterator>,
+    candidates: impl IntoIterator<Item = &'c Candidate>,
+    scores: &mut Vec<Score>,
 ) -> Result<Decision, PlanningError> {
-    let candidates = candidates.into_iter();
-    let scored = candidates.len();
     let scorer = ActionScorer::new(situation, noise, after)?;
-    let (chosen, trace) = scorer.best(candidates)?.ok_or(PlanningError::NoActions)?;
+    scores.clear();
+    let mut best: Option<(&Candidate, f64)> = None;
+    for candidate in candidates {
+        let Candidate { index, pose, .. } = *candidate;
+        let trace = scorer.score(candidate)?;
+        scores.push(Score { index, pose, trace });
+        let better = best.is_none_or(|(leader, smallest)| {
+            // The first in the action set among equals.
+            (trace, index) < (smallest, leader.index)
+        });
+        if better {
+            best = Some((candidate, trace));
+        }
+    }
+    let (chosen, trace) = best.ok_or(PlanningError::NoActions)?;
     Ok(Decision {
-        scored,
+        scored: scores.len(),
         predicted_trace: Some(trace),
         ..safe.decision(chosen)
     })

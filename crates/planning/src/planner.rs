@@ -1,7 +1,7 @@
 //! The trait that every planner implements.
 
 use adslam_estimator::Belief;
-use adslam_models::Control;
+use adslam_models::{Control, Pose};
 use adslam_surface::Surface;
 use nalgebra::{Point3, Vector3};
 
@@ -67,6 +67,17 @@ impl Decision {
     }
 }
 
+/// An action for which the objective was computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Score {
+    /// Its place in the action set.
+    pub index: usize,
+    /// The pose that it would lead to, without noise.
+    pub pose: Pose,
+    /// trace(Pₙ₊₁) after it, rad² + cm².
+    pub trace: f64,
+}
+
 /// Chooses the control at each step. Deterministic: the same situations give the same decisions.
 pub trait Planner: Send {
     /// The control to take from here.
@@ -74,4 +85,15 @@ pub trait Planner: Send {
     /// # Errors
     /// A belief that has broken down, or inputs that do not fit each other.
     fn decide(&mut self, situation: &Situation<'_>) -> Result<Decision, PlanningError>;
+
+    /// The actions scored for the last decision, for those who watch; empty for planners that do not
+    /// score.
+    fn scores(&self) -> &[Score] {
+        &[]
+    }
+
+    /// The viewpoints that the planner visits, in order; empty for planners without any.
+    fn viewpoints(&self) -> &[Point3<f64>] {
+        &[]
+    }
 }

@@ -76,26 +76,4 @@ impl<'a> ActionScorer<'a> {
             .objective
             .after(&candidate.control, &self.visible(candidate))?)
     }
-
-    /// The candidate with the smallest trace, the first in the action set among equals, and its
-    /// trace; nothing if there are no candidates.
-    ///
-    /// # Errors
-    /// A belief that has broken down.
-    pub fn best<'c>(
-        &self,
-        candidates: impl IntoIterator<Item = &'c Candidate>,
-    ) -> Result<Option<(&'c Candidate, f64)>, PlanningError> {
-        let mut best: Option<(&Candidate, f64)> = None;
-        for candidate in candidates {
-            let trace = self.score(candidate)?;
-            let better = best.is_none_or(|(leader, smallest)| {
-                (trace, candidate.index) < (smallest, leader.index)
-            });
-            if better {
-                best = Some((candidate, trace));
-            }
-        }
-        Ok(best)
-    }
 }

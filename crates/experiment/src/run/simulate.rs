@@ -5,10 +5,10 @@ use std::time::Instant;
 use adslam_estimator::{
     Belief, Ekf, EstimatorError, FeatureMeasurement, Measurements, StructureMeasurements,
 };
-use adslam_models::{FeatureId, Pose};
-use adslam_planning::{Decision, Situation, features_seen_in_pose};
+use adslam_models::{Control, FeatureId, Pose};
+use adslam_planning::{Decision, Planner, PlanningError, Score, Situation, features_seen_in_pose};
 use adslam_surface::Surface;
-use nalgebra::{Matrix6, Point3};
+use nalgebra::{Matrix6, Point3, Vector3};
 
 use super::{Interrupt, Setup, build_planner};
 use crate::ExperimentError;
@@ -35,6 +35,10 @@ pub struct StepView<'a> {
     pub surface_distance: f64,
     /// The decision that led here, and how long it took in ms; none at the start.
     pub decision: Option<(&'a Decision, f64)>,
+    /// The actions that were scored for that decision.
+    pub scores: &'a [Score],
+    /// The viewpoints that the planner visits.
+    pub viewpoints: &'a [Point3<f64>],
 }
 
 /// Watches a run: writes it down, draws it, or stops it with an error.
@@ -77,11 +81,32 @@ pub fn simulate(
     interrupt: &Interrupt,
     observer: &mut dyn Observer,
 ) -> Result<RunOutcome, ExperimentError> {
-    let run = Run {
-        setup,
-        name: format!("{}, {planner}, seed {seed}", setup.name),
-    };
-    run.simulate(planner, seed, interrupt, observer)
+    let name = RunName(format!("{}, {planner}, seed {seed}", setup.name));
+    let (mut run, warnings) = Run::start(setup, name, planner, seed)?;
+    run.observe(None, observer)?;
+    for _ in 1..setup.steps {
+        if interrupt.requested() {
+            return Err(ExperimentError::Interrupted);
+        }
+        let decided = run.advance()?;
+        run.observe(Some(&decided), observer)?;
+    }
+    Ok(RunOutcome {
+        summary: run.builder.finish(seed),
+        warnings,
+    })
+}
+
+/// A run between two steps.
+struct Run<'a> {
+    setup: &'a Setup,
+    name: RunName,
+    world: World<'a>,
+    sight: Sight,
+    ekf: Ekf,
+    belief: Belief,
+    planner: Box<dyn Planner>,
+    builder: SummaryBuilder,
 }
 
 /// The true robot against the true object.
@@ -90,109 +115,113 @@ struct Sight {
     surface_distance: f64,
 }
 
-struct Run<'a> {
-    setup: &'a Setup,
-    name: String,
+/// A decision and how long it took, ms.
+struct Decided {
+    decision: Decision,
+    milliseconds: f64,
 }
 
-impl Run<'_> {
-    fn simulate(
-        &self,
+impl<'a> Run<'a> {
+    /// Step 1, and what the user should know.
+    fn start(
+        setup: &'a Setup,
+        name: RunName,
         planner: PlannerName,
         seed: u64,
-        interrupt: &Interrupt,
-        observer: &mut dyn Observer,
-    ) -> Result<RunOutcome, ExperimentError> {
-        let setup = self.setup;
+    ) -> Result<(Self, Vec<String>), ExperimentError> {
         let mut world = World::new(&setup.world, seed);
-        let filter_failed = |step| move |source| self.filter_failed(step, source);
-        let ekf = Ekf::new(setup.planning.noise).map_err(filter_failed(1))?;
-        let first = world.first_estimate();
+        let features = world.first_estimate();
         let sigma = setup.initial_feature_sigma;
-        let mut belief = Belief::initial(setup.world.start, first, &Matrix6::zeros(), sigma)
-            .map_err(filter_failed(1))?;
-        let (mut planner, warnings) = build_planner(setup, planner, &belief, seed)
-            .map_err(|source| self.planning_failed(1, source))?;
+        let ekf = Ekf::new(setup.planning.noise).map_err(name.filter_failed(1))?;
+        let belief = Belief::initial(setup.world.start, features, &Matrix6::zeros(), sigma)
+            .map_err(name.filter_failed(1))?;
+        let (planner, warnings) =
+            build_planner(setup, planner, &belief, seed).map_err(name.planner_failed(1))?;
+        let run = Self {
+            setup,
+            sight: Sight::of(&world, setup, &name)?,
+            builder: SummaryBuilder::new(world.features().len()),
+            name,
+            world,
+            ekf,
+            belief,
+            planner,
+        };
+        Ok((run, warnings))
+    }
 
-        let mut builder = SummaryBuilder::new(world.features().len());
-        let sight = self.look(&world)?;
-        self.finish_step(&world, &belief, &sight, None, &mut builder, observer)?;
-        for step in 2..=setup.steps {
-            if interrupt.requested() {
-                return Err(ExperimentError::Interrupted);
-            }
-            let feature_motion = setup.known_feature_motion(step - 1);
-            let situation = Situation {
-                belief: &belief,
-                feature_motion: &feature_motion,
-                model: &setup.planning,
-            };
-            let start = Instant::now();
-            let decision = planner
-                .decide(&situation)
-                .map_err(|source| self.planning_failed(step - 1, source))?;
-            let milliseconds = start.elapsed().as_secs_f64() * 1e3;
-            builder.add_decision(milliseconds, decision.compromised);
+    /// Decides, moves the world and updates the belief: from step n to n + 1.
+    fn advance(&mut self) -> Result<Decided, ExperimentError> {
+        let n = self.world.step();
+        let feature_motion = self.setup.known_feature_motion(n);
+        let situation = Situation {
+            belief: &self.belief,
+            feature_motion: &feature_motion,
+            model: &self.setup.planning,
+        };
+        let start = Instant::now();
+        let decision = self
+            .planner
+            .decide(&situation)
+            .map_err(self.name.planner_failed(n))?;
+        let milliseconds = start.elapsed().as_secs_f64() * 1e3;
 
-            world.advance(&decision.control);
-            let sight = self.look(&world)?;
-            let measured = world.measure(&sight.visible);
-            let features: Vec<FeatureMeasurement> = measured
-                .features
-                .iter()
-                .map(|&(feature, z)| FeatureMeasurement { feature, z })
-                .collect();
-            let structure = if setup.planning.measures_structure {
-                StructureMeasurements::AllPairsSummed(&measured.structure_sums)
-            } else {
-                StructureMeasurements::None
-            };
-            ekf.predict(&mut belief, &decision.control, &feature_motion)
-                .and_then(|()| {
-                    ekf.update(
-                        &mut belief,
-                        &Measurements {
-                            features: &features,
-                            structure,
-                        },
-                    )
-                })
-                .map_err(filter_failed(step))?;
-            let decision = Some((&decision, milliseconds));
-            self.finish_step(&world, &belief, &sight, decision, &mut builder, observer)?;
-        }
-        Ok(RunOutcome {
-            summary: builder.finish(seed),
-            warnings,
+        self.world.advance(&decision.control);
+        self.sight = Sight::of(&self.world, self.setup, &self.name)?;
+        self.filter(&decision.control, &feature_motion)
+            .map_err(self.name.filter_failed(n + 1))?;
+        Ok(Decided {
+            decision,
+            milliseconds,
         })
     }
 
-    /// Where the true robot is to the true object, and what it sees of it.
-    fn look(&self, world: &World<'_>) -> Result<Sight, ExperimentError> {
-        let model = &self.setup.planning;
-        let surface = Surface::new(&model.topology, world.features())
-            .map_err(|error| self.not_simulated(world.step(), error.to_string()))?;
-        Ok(Sight {
-            visible: features_seen_in_pose(&model.sensor, world.pose(), &surface),
-            surface_distance: surface.signed_distance(&world.pose().position),
-        })
+    /// Algorithm 1, with what the world lets the robot measure.
+    fn filter(
+        &mut self,
+        control: &Control,
+        feature_motion: &[Vector3<f64>],
+    ) -> Result<(), EstimatorError> {
+        let measured = self.world.measure(&self.sight.visible);
+        let features: Vec<FeatureMeasurement> = measured
+            .features
+            .iter()
+            .map(|&(feature, z)| FeatureMeasurement { feature, z })
+            .collect();
+        let structure = if self.setup.planning.measures_structure {
+            StructureMeasurements::AllPairsSummed(&measured.structure_sums)
+        } else {
+            StructureMeasurements::None
+        };
+        let measurements = Measurements {
+            features: &features,
+            structure,
+        };
+        self.ekf
+            .predict(&mut self.belief, control, feature_motion)?;
+        self.ekf.update(&mut self.belief, &measurements)
     }
 
-    fn finish_step(
-        &self,
-        world: &World<'_>,
-        belief: &Belief,
-        sight: &Sight,
-        decision: Option<(&Decision, f64)>,
-        builder: &mut SummaryBuilder,
+    /// Adds the present step to the summary and shows it to the observer.
+    fn observe(
+        &mut self,
+        decided: Option<&Decided>,
         observer: &mut dyn Observer,
     ) -> Result<(), ExperimentError> {
+        let (world, belief, sight) = (&self.world, &self.belief, &self.sight);
         let step = world.step();
-        let metrics = measure_step(belief, world.pose(), world.features())
-            .ok_or_else(|| self.not_simulated(step, "the estimate is not finite".to_owned()))?;
+        let metrics = measure_step(belief, world.pose(), world.features()).ok_or_else(|| {
+            self.name
+                .not_simulated(step, "the estimate is not finite".to_owned())
+        })?;
         let clearance = self.setup.planning.clearance;
         let seen = sight.visible.iter().map(|feature| feature.0);
-        builder.add_step(step, seen, &metrics, sight.surface_distance, clearance);
+        self.builder
+            .add_step(step, seen, &metrics, sight.surface_distance, clearance);
+        if let Some(decided) = decided {
+            self.builder
+                .add_decision(decided.milliseconds, decided.decision.compromised);
+        }
         observer.step(&StepView {
             step,
             pose: world.pose(),
@@ -201,33 +230,48 @@ impl Run<'_> {
             visible: &sight.visible,
             metrics: &metrics,
             surface_distance: sight.surface_distance,
-            decision,
+            decision: decided.map(|decided| (&decided.decision, decided.milliseconds)),
+            scores: self.planner.scores(),
+            viewpoints: self.planner.viewpoints(),
         })
     }
+}
 
-    fn filter_failed(&self, step: usize, source: EstimatorError) -> ExperimentError {
-        ExperimentError::Filter {
-            run: self.name.clone(),
+impl Sight {
+    fn of(world: &World<'_>, setup: &Setup, name: &RunName) -> Result<Self, ExperimentError> {
+        let model = &setup.planning;
+        let surface = Surface::new(&model.topology, world.features())
+            .map_err(|error| name.not_simulated(world.step(), error.to_string()))?;
+        Ok(Self {
+            visible: features_seen_in_pose(&model.sensor, world.pose(), &surface),
+            surface_distance: surface.signed_distance(&world.pose().position),
+        })
+    }
+}
+
+/// What a run is called in errors.
+struct RunName(String);
+
+impl RunName {
+    fn filter_failed(&self, step: usize) -> impl FnOnce(EstimatorError) -> ExperimentError + '_ {
+        move |cause| ExperimentError::Filter {
+            run: self.0.clone(),
             step,
-            source,
+            cause,
         }
     }
 
-    fn planning_failed(
-        &self,
-        step: usize,
-        source: adslam_planning::PlanningError,
-    ) -> ExperimentError {
-        ExperimentError::Planning {
-            run: self.name.clone(),
+    fn planner_failed(&self, step: usize) -> impl FnOnce(PlanningError) -> ExperimentError + '_ {
+        move |cause| ExperimentError::Planning {
+            run: self.0.clone(),
             step,
-            source,
+            cause,
         }
     }
 
     fn not_simulated(&self, step: usize, reason: String) -> ExperimentError {
         ExperimentError::Simulation {
-            run: self.name.clone(),
+            run: self.0.clone(),
             step,
             reason,
         }
