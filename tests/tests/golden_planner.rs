@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::io::BufReader;
 use std::sync::Arc;
 
-use adslam_estimator::{Belief, FilterNoise, PosteriorTrace};
+use adslam_estimator::{Belief, DirectTrace, FilterNoise, PlannedMeasurement, PosteriorTrace};
 use adslam_experiment::log::Replay;
 use adslam_experiment::run::Setup;
 use adslam_experiment::scenario::{Scenario, Viewpoints};
@@ -116,7 +116,9 @@ fn clear_candidates_and_objectives() {
             feature_measurement_sigma: sigma,
             ..noise
         };
-        let objective = PosteriorTrace::new(&belief, &motion, &noise, true).unwrap();
+        let all: Vec<FeatureId> = (0..belief.state.features.len()).map(FeatureId).collect();
+        let mut objective = PosteriorTrace::new(&belief, &motion, &noise, true, &all).unwrap();
+        let direct = DirectTrace::new(&belief, &motion, &noise, true).unwrap();
         assert_eq!(at.actions.len(), at.trace.len());
         for (u, expected) in at.actions.iter().zip(&at.trace) {
             let control = Control {
@@ -125,12 +127,21 @@ fn clear_candidates_and_objectives() {
             };
             let pose = objective.predicted_pose(&control);
             let visible = features_seen_in_pose(&golden.sensor(), &pose, &after);
-            let trace = objective.after(&control, &visible).unwrap();
-            assert!(
-                (trace - expected).abs() < 1e-9 && (trace / expected - 1.0).abs() < 1e-9,
-                "before step {}, action {u:?}: {trace} is not {expected}",
-                at.before_step
-            );
+            let set = objective.add_set(&visible).unwrap();
+            let measured: Vec<PlannedMeasurement> = visible
+                .iter()
+                .map(|&feature| PlannedMeasurement::isotropic(feature, sigma))
+                .collect();
+            for trace in [
+                objective.after(&control, set).unwrap(),
+                direct.after(&control, &measured).unwrap(),
+            ] {
+                assert!(
+                    (trace - expected).abs() < 1e-9 && (trace / expected - 1.0).abs() < 1e-9,
+                    "before step {}, action {u:?}: {trace} is not {expected}",
+                    at.before_step
+                );
+            }
         }
     }
 }

@@ -59,6 +59,9 @@ pub enum EstimatorError {
     /// A feature measured twice at one step.
     #[error("{0} is measured twice in one step; give one measurement of each feature")]
     RepeatedFeature(FeatureId),
+    /// A planned measurement of a feature that was not announced as visible.
+    #[error("{0} is not among the features that the decision was prepared for")]
+    NotPlanned(FeatureId),
     /// A noise sigma that cannot be used.
     #[error("the sigma of {what} is {value}; it must be {requirement}")]
     BadSigma {

@@ -22,5 +22,5 @@ pub use covariance::Covariance;
 pub use ekf::{Ekf, FeatureMeasurement, Measurements};
 pub use error::EstimatorError;
 pub use noise::FilterNoise;
-pub use objective::PosteriorTrace;
+pub use objective::{DirectTrace, PlannedMeasurement, PosteriorTrace, SetId};
 pub use structure_update::{PairMeasurement, StructureMeasurements};

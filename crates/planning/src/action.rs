@@ -1,5 +1,7 @@
 //! The set U of candidate actions.
 
+use std::collections::HashMap;
+
 use adslam_models::{Control, EulerAngles};
 use nalgebra::Vector3;
 
@@ -9,6 +11,9 @@ pub struct ActionSet {
     controls: Vec<Control>,
     max_roll: f64,
     max_pitch: f64,
+    /// For each action which of the distinct translations it has.
+    positions: Vec<usize>,
+    position_count: usize,
 }
 
 impl ActionSet {
@@ -41,11 +46,29 @@ impl ActionSet {
                 }
             }
         }
+        let (positions, position_count) = distinct_translations(&controls);
         Self {
             controls,
             max_roll,
             max_pitch,
+            positions,
+            position_count,
         }
+    }
+
+    /// How many distinct positions the actions lead to.
+    #[must_use]
+    pub fn position_count(&self) -> usize {
+        self.position_count
+    }
+
+    /// Which of them an action leads to: the same number for the same translation.
+    ///
+    /// # Panics
+    /// If there is no such action.
+    #[must_use]
+    pub fn position_of(&self, action: usize) -> usize {
+        self.positions[action]
     }
 
     /// All actions, in order.
@@ -59,6 +82,22 @@ impl ActionSet {
     pub fn admits(&self, orientation: EulerAngles) -> bool {
         orientation.roll.abs() <= self.max_roll && orientation.pitch.abs() <= self.max_pitch
     }
+}
+
+/// Numbers the translations, the same number for the same vector, in the order of the actions; and how
+/// many there are.
+fn distinct_translations(controls: &[Control]) -> (Vec<usize>, usize) {
+    let mut numbers = HashMap::new();
+    let positions = controls
+        .iter()
+        .map(|control| {
+            // Adding zero makes −0 and 0 the same.
+            let key = control.translation.map(|x| (x + 0.0).to_bits());
+            let next = numbers.len();
+            *numbers.entry([key.x, key.y, key.z]).or_insert(next)
+        })
+        .collect();
+    (positions, numbers.len())
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use nalgebra::Point3;
 
 use crate::goal::nearest_first;
 use crate::local::decide_by_trace;
+use crate::scoring::ActionScorer;
 use crate::{
     Decision, Goals, Planner, PlanningError, PlanningNoise, SafeActions, Score, Situation,
 };
@@ -39,19 +40,17 @@ impl Nearest {
 pub struct CombinedPlanner {
     goals: Goals,
     nearest: Nearest,
-    noise: PlanningNoise,
-    scores: Vec<Score>,
+    scorer: ActionScorer,
 }
 
 impl CombinedPlanner {
     /// A planner that visits these viewpoints and scores the `nearest` actions.
     #[must_use]
-    pub const fn new(goals: Goals, nearest: Nearest, noise: PlanningNoise) -> Self {
+    pub fn new(goals: Goals, nearest: Nearest, noise: PlanningNoise) -> Self {
         Self {
             goals,
             nearest,
-            noise,
-            scores: Vec::new(),
+            scorer: ActionScorer::new(noise),
         }
     }
 }
@@ -61,18 +60,9 @@ impl Planner for CombinedPlanner {
         let goal = self.goals.next_from(&situation.belief.state.pose.position);
         let (now, after) = situation.surfaces()?;
         let safe = SafeActions::find(situation, &now, &after)?;
-        let nearest = nearest_first(safe.candidates(), &goal.1);
-        let kept = nearest
-            .into_iter()
-            .take(self.nearest.of(safe.candidates().len()));
-        let decision = decide_by_trace(
-            situation,
-            &self.noise,
-            &after,
-            &safe,
-            kept,
-            &mut self.scores,
-        )?;
+        let mut nearest = nearest_first(safe.candidates(), &goal.1);
+        nearest.truncate(self.nearest.of(nearest.len()));
+        let decision = decide_by_trace(situation, &after, &safe, &nearest, &mut self.scorer)?;
         Ok(Decision {
             goal: Some(goal),
             ..decision
@@ -80,7 +70,7 @@ impl Planner for CombinedPlanner {
     }
 
     fn scores(&self) -> &[Score] {
-        &self.scores
+        self.scorer.scores()
     }
 
     fn viewpoints(&self) -> &[Point3<f64>] {

@@ -28,7 +28,7 @@ impl Planner for GlobalPlanner {
         let chosen = nearest.first().ok_or(PlanningError::NoActions)?;
         Ok(Decision {
             goal: Some(goal),
-            ..safe.decision(chosen)
+            ..safe.decision(chosen.control)
         })
     }
 

@@ -24,6 +24,7 @@ mod predetermined;
 mod safety;
 mod scoring;
 mod viewpoint;
+mod visible_sets;
 
 pub use action::ActionSet;
 pub use combined::{CombinedPlanner, Nearest};
@@ -35,7 +36,7 @@ pub use model::PlanningModel;
 pub use planner::{Decision, Planner, Score, Situation};
 pub use predetermined::PredeterminedPlanner;
 pub use safety::{Candidate, SafeActions};
-pub use scoring::{ActionScorer, PlanningNoise};
+pub use scoring::{PlanningNoise, TRACE_TOLERANCE};
 pub use viewpoint::{
     ViewpointPath, ViewpointSampling, features_never_seen, features_seen_from,
     features_seen_in_pose, sample_viewpoints,

@@ -2,25 +2,23 @@
 
 use adslam_surface::Surface;
 
+use crate::scoring::ActionScorer;
 use crate::{
-    ActionScorer, Candidate, Decision, Planner, PlanningError, PlanningNoise, SafeActions, Score,
-    Situation,
+    Candidate, Decision, Planner, PlanningError, PlanningNoise, SafeActions, Score, Situation,
 };
 
 /// Takes the safe action with the smallest trace of the next covariance, eqs. (6), (7).
 #[derive(Clone, Debug, Default)]
 pub struct LocalPlanner {
-    noise: PlanningNoise,
-    scores: Vec<Score>,
+    scorer: ActionScorer,
 }
 
 impl LocalPlanner {
     /// A planner that assumes this noise.
     #[must_use]
-    pub const fn new(noise: PlanningNoise) -> Self {
+    pub fn new(noise: PlanningNoise) -> Self {
         Self {
-            noise,
-            scores: Vec::new(),
+            scorer: ActionScorer::new(noise),
         }
     }
 }
@@ -29,44 +27,31 @@ impl Planner for LocalPlanner {
     fn decide(&mut self, situation: &Situation<'_>) -> Result<Decision, PlanningError> {
         let (now, after) = situation.surfaces()?;
         let safe = SafeActions::find(situation, &now, &after)?;
-        let all = safe.candidates();
-        decide_by_trace(situation, &self.noise, &after, &safe, all, &mut self.scores)
+        let all: Vec<&Candidate> = safe.candidates().iter().collect();
+        decide_by_trace(situation, &after, &safe, &all, &mut self.scorer)
     }
 
     fn scores(&self) -> &[Score] {
-        &self.scores
+        self.scorer.scores()
     }
 }
 
 /// The candidate with the smallest trace, as a decision: the rule that the local planner
 /// applies to all safe actions and the combined one to those near the goal.
-pub(crate) fn decide_by_trace<'c>(
+pub(crate) fn decide_by_trace(
     situation: &Situation<'_>,
-    noise: &PlanningNoise,
     after: &Surface,
     safe: &SafeActions,
-    candidates: impl IntoIterator<Item = &'c Candidate>,
-    scores: &mut Vec<Score>,
+    candidates: &[&Candidate],
+    scorer: &mut ActionScorer,
 ) -> Result<Decision, PlanningError> {
-    let scorer = ActionScorer::new(situation, noise, after)?;
-    scores.clear();
-    let mut best: Option<(&Candidate, f64)> = None;
-    for candidate in candidates {
-        let Candidate { index, pose, .. } = *candidate;
-        let trace = scorer.score(candidate)?;
-        scores.push(Score { index, pose, trace });
-        let better = best.is_none_or(|(leader, smallest)| {
-            // The first in the action set among equals.
-            (trace, index) < (smallest, leader.index)
-        });
-        if better {
-            best = Some((candidate, trace));
-        }
-    }
-    let (chosen, trace) = best.ok_or(PlanningError::NoActions)?;
+    let best = scorer
+        .best(situation, after, candidates)?
+        .ok_or(PlanningError::NoActions)?;
+    let control = situation.model.actions.controls()[best.index];
     Ok(Decision {
-        scored: scores.len(),
-        predicted_trace: Some(trace),
-        ..safe.decision(chosen)
+        scored: scorer.scores().len(),
+        predicted_trace: Some(best.trace),
+        ..safe.decision(control)
     })
 }

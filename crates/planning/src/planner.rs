@@ -8,7 +8,7 @@ use nalgebra::{Point3, Vector3};
 use crate::{PlanningError, PlanningModel};
 
 /// What is known when the robot has to choose its next control.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Situation<'a> {
     /// The belief at step n.
     pub belief: &'a Belief,
@@ -16,9 +16,17 @@ pub struct Situation<'a> {
     pub feature_motion: &'a [Vector3<f64>],
     /// The robot, its sensor and the object.
     pub model: &'a PlanningModel,
+    /// Whether the time for the decision is up; asked between actions, absent where time does not
+    /// matter. Planners have no clock of their own.
+    pub time_is_up: Option<&'a dyn Fn() -> bool>,
 }
 
 impl Situation<'_> {
+    /// Whether the time for the decision is up.
+    pub(crate) fn is_late(&self) -> bool {
+        self.time_is_up.is_some_and(|time_is_up| time_is_up())
+    }
+
     /// The surface of the estimated features before and after their known motion.
     ///
     /// # Errors

@@ -108,9 +108,9 @@ impl SafeActions {
         self.compromised
     }
 
-    /// The record of choosing `chosen` among these.
+    /// The record of choosing one of these.
     #[must_use]
-    pub fn decision(&self, chosen: &Candidate) -> Decision {
+    pub fn decision(&self, chosen: Control) -> Decision {
         Decision {
             admissible: self.admissible,
             safe: if self.compromised {
@@ -119,7 +119,7 @@ impl SafeActions {
                 self.candidates.len()
             },
             compromised: self.compromised,
-            ..Decision::without_choice(chosen.control)
+            ..Decision::without_choice(chosen)
         }
     }
 }

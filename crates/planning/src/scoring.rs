@@ -1,11 +1,11 @@
 //! The objective of eqs. (6), (7) over candidates: what would be seen, and what it would leave.
 
-use adslam_estimator::{FilterNoise, PosteriorTrace};
+use adslam_estimator::{FilterNoise, PosteriorTrace, SetId};
 use adslam_models::FeatureId;
 use adslam_surface::Surface;
 
-use crate::viewpoint::features_seen_in_pose;
-use crate::{Candidate, PlanningError, Situation};
+use crate::visible_sets::VisibleSets;
+use crate::{Candidate, PlanningError, Score, Situation};
 
 /// What a planner assumes otherwise than the filter does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,52 +28,121 @@ impl PlanningNoise {
     }
 }
 
-/// Scores the candidates of one decision.
-#[derive(Debug)]
-pub struct ActionScorer<'a> {
-    situation: &'a Situation<'a>,
-    after: &'a Surface,
-    objective: PosteriorTrace,
+/// Scores the candidates of one decision after another; keeps its room between them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ActionScorer {
+    noise: PlanningNoise,
+    sets: VisibleSets,
+    ids: Vec<FeatureId>,
+    /// The sets computed so far: where in `sets` each stands, and where in the objective.
+    computed: Vec<(usize, SetId)>,
+    scores: Vec<Score>,
 }
 
-impl<'a> ActionScorer<'a> {
-    /// Prepares the decision; `after` is the surface of the estimated features after their known
-    /// motion.
+/// Traces nearer to each other than this, relatively, count as equal: mirror images of an action are
+/// exactly as good, and rounding must not decide between them.
+pub const TRACE_TOLERANCE: f64 = 1e-12;
+
+/// A candidate is passed over only if even with more to see it would be worse by more than any
+/// rounding.
+const MARGIN: f64 = 1.0 + 100.0 * TRACE_TOLERANCE;
+
+impl ActionScorer {
+    pub(crate) fn new(noise: PlanningNoise) -> Self {
+        Self {
+            noise,
+            ..Self::default()
+        }
+    }
+
+    /// The actions scored for the last decision, in the order of scoring.
+    pub(crate) fn scores(&self) -> &[Score] {
+        &self.scores
+    }
+
+    /// The score of the candidate with the smallest trace, the first in the action set among equals;
+    /// nothing if there are no candidates. `after` is the surface of the estimated features after
+    /// their known motion.
+    ///
+    /// Candidates are scored in groups that see the same, those that see most first. One that is
+    /// sure to be worse than the best so far is passed over: measuring more never raises the
+    /// trace, so a set that contains its own gives a lower bound.
     ///
     /// # Errors
     /// A belief that has broken down.
-    pub fn new(
-        situation: &'a Situation<'a>,
-        noise: &PlanningNoise,
-        after: &'a Surface,
-    ) -> Result<Self, PlanningError> {
+    pub(crate) fn best(
+        &mut self,
+        situation: &Situation<'_>,
+        after: &Surface,
+        candidates: &[&Candidate],
+    ) -> Result<Option<Score>, PlanningError> {
         let model = situation.model;
-        let objective = PosteriorTrace::new(
+        self.sets.find(
+            candidates.iter().copied(),
+            &model.actions,
+            &model.sensor,
+            after,
+        );
+        self.sets.union(&mut self.ids);
+        let mut objective = PosteriorTrace::new(
             situation.belief,
             situation.feature_motion,
-            &noise.over(&model.noise),
+            &self.noise.over(&model.noise),
             model.measures_structure,
+            &self.ids,
         )?;
-        Ok(Self {
-            situation,
-            after,
-            objective,
-        })
+        self.scores.clear();
+        self.computed.clear();
+        let mut smallest = f64::INFINITY;
+        for group in self.sets.groups() {
+            let set = self.sets.set(group[0]);
+            // The latest is the smallest of those that contain this one.
+            let wider = self
+                .computed
+                .iter()
+                .rev()
+                .find(|(other, _)| VisibleSets::contains(self.sets.set(*other), set))
+                .map(|(_, id)| *id);
+            let mut entered = None;
+            for &place in group {
+                if !self.scores.is_empty() && situation.is_late() {
+                    return Ok(first_of_the_best(&self.scores));
+                }
+                let Candidate {
+                    index,
+                    control,
+                    pose,
+                } = *candidates[place];
+                if let Some(wider) = wider
+                    && objective.after(&control, wider)? > smallest * MARGIN
+                {
+                    continue;
+                }
+                let set = match entered {
+                    Some(set) => set,
+                    None => {
+                        VisibleSets::features(set, &mut self.ids);
+                        let added = objective.add_set(&self.ids)?;
+                        self.computed.push((group[0], added));
+                        *entered.insert(added)
+                    }
+                };
+                let trace = objective.after(&control, set)?;
+                self.scores.push(Score { index, pose, trace });
+                smallest = smallest.min(trace);
+            }
+        }
+        Ok(first_of_the_best(&self.scores))
     }
+}
 
-    /// The features that the robot expects to measure after the candidate.
-    #[must_use]
-    pub fn visible(&self, candidate: &Candidate) -> Vec<FeatureId> {
-        features_seen_in_pose(&self.situation.model.sensor, &candidate.pose, self.after)
-    }
-
-    /// trace(Pₙ₊₁) after the candidate, rad² + cm².
-    ///
-    /// # Errors
-    /// A belief that has broken down.
-    pub fn score(&self, candidate: &Candidate) -> Result<f64, PlanningError> {
-        Ok(self
-            .objective
-            .after(&candidate.control, &self.visible(candidate))?)
-    }
+/// Of the scores that are equal to the smallest the first in the action set.
+fn first_of_the_best(scores: &[Score]) -> Option<Score> {
+    let smallest = scores.iter().map(|score| score.trace).reduce(f64::min)?;
+    let limit = smallest * (1.0 + TRACE_TOLERANCE);
+    scores
+        .iter()
+        .filter(|score| score.trace <= limit)
+        .min_by_key(|score| score.index)
+        .copied()
 }

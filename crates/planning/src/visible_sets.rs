@@ -1,0 +1,136 @@
+//! Which features each candidate sees, and candidates grouped by what they see.
+
+use adslam_models::{FeatureId, Sensor};
+use adslam_surface::Surface;
+
+use crate::{ActionSet, Candidate};
+
+/// The visible sets of the candidates of a decision, as bits. A line of sight from one position to one
+/// feature is looked along once, however many orientations share the position.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct VisibleSets {
+    /// Words of 64 features in a set.
+    words: usize,
+    /// The set of each candidate, one after the other.
+    bits: Vec<u64>,
+    /// For each position and feature what is known of the line of sight.
+    lines: Vec<Line>,
+    /// Candidates, those that see most first, equal sets together.
+    order: Vec<usize>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Line {
+    Unknown,
+    Free,
+    Blocked,
+}
+
+impl VisibleSets {
+    /// Finds out what each candidate sees of the object whose surface will be `surface`.
+    pub(crate) fn find<'c>(
+        &mut self,
+        candidates: impl IntoIterator<Item = &'c Candidate>,
+        actions: &ActionSet,
+        sensor: &Sensor,
+        surface: &Surface,
+    ) {
+        let features = surface.points();
+        self.words = features.len().div_ceil(64);
+        self.bits.clear();
+        self.lines.clear();
+        self.lines
+            .resize(actions.position_count() * features.len(), Line::Unknown);
+        for candidate in candidates {
+            let start = self.bits.len();
+            self.bits.resize(start + self.words, 0);
+            let position = &candidate.pose.position;
+            let lines = actions.position_of(candidate.index) * features.len();
+            let forward = candidate
+                .pose
+                .orientation
+                .rotation()
+                .into_inner()
+                .column(0)
+                .into_owned();
+            for (id, point) in features.iter().enumerate() {
+                let ahead = forward.dot(&(point - position)) > 0.0;
+                if !ahead || !sensor.in_range(position, point) {
+                    continue;
+                }
+                let line = &mut self.lines[lines + id];
+                if *line == Line::Unknown {
+                    let free = surface.sees(position, id);
+                    *line = if free { Line::Free } else { Line::Blocked };
+                }
+                if *line == Line::Free {
+                    self.bits[start + id / 64] |= 1 << (id % 64);
+                }
+            }
+        }
+        self.sort();
+    }
+
+    fn sort(&mut self) {
+        let Self {
+            words, bits, order, ..
+        } = self;
+        order.clear();
+        order.extend(0..bits.len().checked_div(*words).unwrap_or(0));
+        let set = |candidate: usize| &bits[candidate * *words..][..*words];
+        let size = |candidate: usize| set(candidate).iter().map(|w| w.count_ones()).sum::<u32>();
+        order.sort_unstable_by(|&a, &b| {
+            size(b)
+                .cmp(&size(a))
+                .then_with(|| set(a).cmp(set(b)))
+                .then(a.cmp(&b))
+        });
+    }
+
+    /// The set of a candidate, by its place in the list that was given.
+    pub(crate) fn set(&self, candidate: usize) -> &[u64] {
+        &self.bits[candidate * self.words..][..self.words]
+    }
+
+    /// Candidates that see the same, group after group; those that see most come first.
+    pub(crate) fn groups(&self) -> impl Iterator<Item = &[usize]> {
+        self.order.chunk_by(|&a, &b| self.set(a) == self.set(b))
+    }
+
+    /// The features that any candidate sees, in `ids`.
+    pub(crate) fn union(&self, ids: &mut Vec<FeatureId>) {
+        ids.clear();
+        for word in 0..self.words {
+            let any = self
+                .bits
+                .iter()
+                .skip(word)
+                .step_by(self.words)
+                .fold(0, |all, w| all | w);
+            push_bits(any, word, ids);
+        }
+    }
+
+    /// The features of a set, in `ids`.
+    pub(crate) fn features(set: &[u64], ids: &mut Vec<FeatureId>) {
+        ids.clear();
+        for (word, &bits) in set.iter().enumerate() {
+            push_bits(bits, word, ids);
+        }
+    }
+
+    /// Whether every feature of `part` is in `whole`.
+    pub(crate) fn contains(whole: &[u64], part: &[u64]) -> bool {
+        whole
+            .iter()
+            .zip(part)
+            .all(|(whole, part)| part & !whole == 0)
+    }
+}
+
+fn push_bits(mut bits: u64, word: usize, ids: &mut Vec<FeatureId>) {
+    while bits != 0 {
+        ids.push(FeatureId(64 * word + bits.trailing_zeros() as usize));
+        bits &= bits - 1;
+    }
+}
