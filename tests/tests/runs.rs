@@ -136,3 +136,77 @@ fn an_interrupted_run_says_so() {
     let error = simulate(&setup, PlannerName::Global, 1, &interrupt, &mut NoObserver).unwrap_err();
     assert!(matches!(error, ExperimentError::Interrupted));
 }
+
+/// With hardly any time a planner still takes a safe action, the best of those it came to score.
+#[test]
+fn a_deadline_leaves_the_best_action_so_far() {
+    #[derive(Default)]
+    struct Scored(Vec<(usize, usize)>);
+    impl Observer for Scored {
+        fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+            if let Some((decision, _)) = view.decision {
+                let best = view
+                    .scores
+                    .iter()
+                    .map(|score| score.trace)
+                    .fold(f64::INFINITY, f64::min);
+                assert!((decision.predicted_trace.unwrap() / best - 1.0).abs() < 1e-11);
+                self.0.push((decision.scored, decision.safe));
+            }
+            Ok(())
+        }
+    }
+    let hurried = "[planners.local]\ndeadline_ms = 1e-6\n\n[planners.predetermined]";
+    let setup = setup(
+        "polygon.toml",
+        &[
+            ("steps = 100", "steps = 20"),
+            ("[planners.predetermined]", hurried),
+        ],
+    );
+    let mut observer = Scored::default();
+    simulate(
+        &setup,
+        PlannerName::Local,
+        1,
+        &Interrupt::new(),
+        &mut observer,
+    )
+    .unwrap();
+    assert!(
+        observer
+            .0
+            .iter()
+            .all(|&(scored, safe)| scored == 1 && safe > 1),
+        "{:?}",
+        observer.0
+    );
+}
+
+#[test]
+fn features_that_no_viewpoint_sees_are_named() {
+    // The only viewpoint is below the polygon, out of sight of its upper half.
+    let below = "[viewpoints.fixed]\npositions_cm = [[1.5, 0.0, -1.5]]\n";
+    let path = adslam_tests::repository("scenarios/polygon.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let (before, after) = text.split_once("[viewpoints.sampled]").unwrap();
+    let (_, after) = after.split_once("[planners.predetermined]").unwrap();
+    let text = format!("{before}{below}[planners.predetermined]{after}");
+    let scenario = adslam_experiment::scenario::Scenario::parse(&text, &path).unwrap();
+    let setup = Setup::new(&scenario).unwrap();
+    let run = simulate(
+        &setup,
+        PlannerName::Global,
+        1,
+        &Interrupt::new(),
+        &mut NoObserver,
+    )
+    .unwrap();
+    let [warning] = &run.warnings[..] else {
+        panic!("{:?}", run.warnings)
+    };
+    assert!(
+        warning.contains("no viewpoint sees features 7, 8, 9, 10, 11, 12, 13;"),
+        "{warning}"
+    );
+}

@@ -134,3 +134,75 @@ fn push_bits(mut bits: u64, word: usize, ids: &mut Vec<FeatureId>) {
         bits &= bits - 1;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use adslam_models::{Pose, predicted_pose};
+    use adslam_surface::Topology;
+    use nalgebra::{Point3, Vector6};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::features_seen_in_pose;
+
+    proptest! {
+        #[test]
+        fn sets_are_those_found_one_by_one_and_groups_hold_every_candidate_once(
+            points in prop::collection::vec(prop::array::uniform3(-1.0..1.0), 6..80),
+            pose in prop::array::uniform6(-1.5..1.5),
+        ) {
+            let points: Vec<Point3<f64>> = points.into_iter().map(Point3::from).collect();
+            let Ok(topology) = Topology::convex_hull(&points) else { return Ok(()) };
+            let surface = Surface::new(&Arc::new(topology), &points)?;
+            let sensor = Sensor { min_range: 0.1, max_range: 1.8 };
+            let turn = [-0.5, 0.0, 0.5];
+            let step = [-0.4, 0.0, 0.4];
+            let actions = ActionSet::grid([&turn, &turn, &turn], [&step, &step], 9.0, 9.0);
+            let start = Pose::from_vector(&Vector6::from(pose));
+            let candidates: Vec<Candidate> = actions
+                .controls()
+                .iter()
+                .enumerate()
+                .map(|(index, control)| Candidate {
+                    index,
+                    control: *control,
+                    pose: predicted_pose(&start, control),
+                })
+                .collect();
+            let mut sets = VisibleSets::default();
+            sets.find(&candidates, &actions, &sensor, &surface);
+
+            let (mut ids, mut any) = (Vec::new(), Vec::new());
+            for (i, candidate) in candidates.iter().enumerate() {
+                VisibleSets::features(sets.set(i), &mut ids);
+                let one_by_one = features_seen_in_pose(&sensor, &candidate.pose, &surface);
+                prop_assert_eq!(&ids, &one_by_one);
+                any.extend(one_by_one);
+            }
+            sets.union(&mut ids);
+            any.sort_unstable();
+            any.dedup();
+            prop_assert_eq!(&ids, &any);
+
+            let mut members: Vec<usize> = Vec::new();
+            let mut sizes = Vec::new();
+            for group in sets.groups() {
+                prop_assert!(group.iter().all(|&i| sets.set(i) == sets.set(group[0])));
+                VisibleSets::features(sets.set(group[0]), &mut ids);
+                sizes.push(ids.len());
+                members.extend(group);
+            }
+            prop_assert!(sizes.is_sorted_by(|a, b| a >= b), "those that see most come first");
+            members.sort_unstable();
+            prop_assert_eq!(members, (0..candidates.len()).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn containment_is_of_every_word() {
+        assert!(VisibleSets::contains(&[0b111, 0b1], &[0b101, 0b1]));
+        assert!(!VisibleSets::contains(&[0b111, 0b0], &[0b101, 0b1]));
+    }
+}
