@@ -4,6 +4,8 @@ use std::process::ExitCode;
 
 use adslam_experiment::ExperimentError;
 
+use crate::print::tell;
+
 /// The work failed: the covariance broke down, the disk is full.
 pub const FAILURE: u8 = 1;
 /// The input cannot be used. The argument parser ends with it too.
@@ -22,6 +24,6 @@ pub fn exit_code(result: Result<(), ExperimentError>) -> ExitCode {
         error if error.is_bad_input() => BAD_INPUT,
         _ => FAILURE,
     };
-    eprintln!("{:?}", miette::Report::new(error));
+    tell(format_args!("{:?}", miette::Report::new(error)));
     ExitCode::from(code)
 }

@@ -2,6 +2,8 @@
 
 use adslam_experiment::run::Interrupt;
 
+use crate::print::tell;
+
 static INTERRUPT: Interrupt = Interrupt::new();
 
 /// Makes Ctrl-C ask long work to stop at the next step, so that what is finished is still written.
@@ -15,7 +17,7 @@ pub fn stop_on_ctrl_c() -> &'static Interrupt {
     };
     // Without a handler Ctrl-C still ends the program, only less gently.
     if ctrlc::set_handler(handler).is_err() {
-        eprintln!("warning: Ctrl-C will not wait for the files to be written");
+        tell("warning: Ctrl-C will not wait for the files to be written");
     }
     &INTERRUPT
 }

@@ -4,6 +4,7 @@ mod args;
 mod commands;
 mod exit;
 mod interrupt;
+mod print;
 mod progress;
 
 pub use args::{Command, FilterArgs, RunArgs, TablesArgs};

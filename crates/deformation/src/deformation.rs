@@ -6,11 +6,29 @@ use nalgebra::{Point3, Vector3};
 
 use crate::Amount;
 
-/// How the points of the object are displaced from where they rest.
+/// How the points of the object are displaced from where they rest: D(n) = Σ aₖ(n) mₖ(rest).
+///
+/// The displacement is a sum of *modes*, fields that depend on the rest position alone, each times
+/// an *amount* that depends on the step alone. Whoever draws the object needs its modes once and
+/// a few numbers a step.
 pub trait Deformation: Debug + Send + Sync {
+    /// How many modes there are.
+    fn mode_count(&self) -> usize;
+
+    /// mₖ: mode `k` (from 0) at the material point that rests at `rest` (world frame, cm). Zero
+    /// where there is no such mode.
+    fn mode(&self, k: usize, rest: &Point3<f64>) -> Vector3<f64>;
+
+    /// aₖ(n): how much of mode `k` there is at step `n` (from 1). Amount times mode is in cm.
+    fn amount(&self, k: usize, n: usize) -> f64;
+
     /// D(n): the displacement at step `n` (from 1) of the material point that rests at `rest`
     /// (world frame), in cm, before r_d turns it.
-    fn displacement(&self, rest: &Point3<f64>, n: usize) -> Vector3<f64>;
+    fn displacement(&self, rest: &Point3<f64>, n: usize) -> Vector3<f64> {
+        (0..self.mode_count())
+            .map(|k| self.mode(k, rest) * self.amount(k, n))
+            .sum()
+    }
 }
 
 /// The object keeps its shape: D(n) = 0.
@@ -18,8 +36,16 @@ pub trait Deformation: Debug + Send + Sync {
 pub struct Rigid;
 
 impl Deformation for Rigid {
-    fn displacement(&self, _rest: &Point3<f64>, _n: usize) -> Vector3<f64> {
+    fn mode_count(&self) -> usize {
+        0
+    }
+
+    fn mode(&self, _k: usize, _rest: &Point3<f64>) -> Vector3<f64> {
         Vector3::zeros()
+    }
+
+    fn amount(&self, _k: usize, _n: usize) -> f64 {
+        0.0
     }
 }
 
@@ -77,8 +103,23 @@ impl<A: Amount> AnchoredDeformation<A> {
 }
 
 impl<A: Amount> Deformation for AnchoredDeformation<A> {
-    fn displacement(&self, rest: &Point3<f64>, n: usize) -> Vector3<f64> {
-        self.direction.from_anchor(&self.anchor, rest) * self.amount.at(n)
+    fn mode_count(&self) -> usize {
+        1
+    }
+
+    /// The one mode: the unit vector away from the anchor.
+    fn mode(&self, k: usize, rest: &Point3<f64>) -> Vector3<f64> {
+        match k {
+            0 => self.direction.from_anchor(&self.anchor, rest),
+            _ => Vector3::zeros(),
+        }
+    }
+
+    fn amount(&self, k: usize, n: usize) -> f64 {
+        match k {
+            0 => self.amount.at(n),
+            _ => 0.0,
+        }
     }
 }
 

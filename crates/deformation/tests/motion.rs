@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use adslam_deformation::{
-    AnchoredDeformation, AxisRotation, BackAndForth, Direction, ObjectMotion, Schedule, Sinusoid,
-    SinusoidalTranslation,
+    Amount, AnchoredDeformation, AxisRotation, BackAndForth, Direction, ObjectMotion, Schedule,
+    Sinusoid, SinusoidalTranslation,
 };
 use approx::assert_relative_eq;
 use nalgebra::{Point3, Vector3};
@@ -139,6 +139,34 @@ proptest! {
         let motion = anchored(schedule([0.0, 1.0, 2.0, 3.0, 2.0, 1.0]));
         let d = motion.deformation.displacement(&rest, n + 1) - motion.deformation.displacement(&rest, n);
         prop_assert_eq!(motion.feature_motion(&rest, n), d);
+    }
+
+    #[test]
+    fn modes_and_amounts_make_the_offset(
+        rest in vector(5.0), amplitude in -1.0..1.0, period in 0.5..20.0, phase in -4.0..4.0,
+        r_d in rotation(1.0), horizontal in any::<bool>(), n in 1_usize..300,
+    ) {
+        let rest = Point3::from(rest);
+        let direction = if horizontal { Direction::Horizontal } else { Direction::Radial };
+        let wave = Sinusoid::new(amplitude, period, phase).unwrap();
+        let motion = ObjectMotion {
+            deformation: Arc::new(AnchoredDeformation::new(ANCHOR, direction, wave)),
+            r_d: Arc::new(r_d),
+            ..ObjectMotion::default()
+        };
+        let deformation = &motion.deformation;
+        let mut displacement = Vector3::zeros();
+        for k in 0..deformation.mode_count() {
+            displacement += deformation.mode(k, &rest) * deformation.amount(k, n);
+        }
+        let offset = motion.r_d.at(n) * displacement;
+        prop_assert!((offset - motion.offset(&rest, n)).norm() < 1e-12);
+        // The plain formula of the paper's deformation.
+        let plain = direction.from_anchor(&ANCHOR, &rest) * wave.at(n);
+        prop_assert!((displacement - plain).norm() < 1e-12);
+        // A mode that does not exist moves nothing.
+        let beyond = deformation.mode_count();
+        prop_assert_eq!(deformation.mode(beyond, &rest) * deformation.amount(beyond, n), Vector3::zeros());
     }
 
     #[test]

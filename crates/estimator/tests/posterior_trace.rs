@@ -55,7 +55,7 @@ fn textbook(
             .copy_from(&m.covariance);
     }
     let s = &h * &p * h.transpose() + o;
-    let gain = &p * h.transpose() * s.try_inverse().unwrap();
+    let gain = &p * h.transpose() * s.try_inverse().expect("S is invertible");
     let n = p.nrows();
     ((DMatrix::identity(n, n) - gain * h) * p).trace()
 }

@@ -3,6 +3,7 @@
 mod document;
 mod explain;
 mod key_path;
+mod kind;
 mod overrides;
 
 use std::fmt::Display;
@@ -15,6 +16,7 @@ use thiserror::Error;
 
 pub(crate) use document::Document;
 pub use explain::nearest;
+pub use kind::FileKind;
 
 /// Input that cannot be used: a file that cannot be read, or whose content is wrong.
 ///

@@ -11,6 +11,8 @@ use thiserror::Error;
 use crate::diagnostics::InputError;
 
 /// Everything that can stop the work of this crate.
+///
+/// Every message is complete: it contains that of its cause, and `source` gives none.
 #[derive(Debug, Error, Diagnostic)]
 pub enum ExperimentError {
     /// The input cannot be used; nothing was run.
@@ -18,24 +20,24 @@ pub enum ExperimentError {
     #[diagnostic(transparent)]
     Input(#[from] InputError),
     /// A decision failed during a run.
-    #[error("{run}: the planner failed at step {step}: {source}")]
+    #[error("{run}: the planner failed at step {step}: {cause}")]
     Planning {
         /// Which run.
         run: String,
         /// The step at which it had to decide.
         step: usize,
         /// What happened.
-        source: PlanningError,
+        cause: PlanningError,
     },
     /// The filter failed during a run or a replay.
-    #[error("{run}: the filter failed at step {step}: {source}")]
+    #[error("{run}: the filter failed at step {step}: {cause}")]
     Filter {
         /// Which run or log.
         run: String,
         /// The step that it was computing.
         step: usize,
         /// What happened.
-        source: EstimatorError,
+        cause: EstimatorError,
     },
     /// The simulated object or the error of an estimate cannot be computed any more.
     #[error("{run}: step {step} cannot be simulated: {reason}")]
@@ -48,22 +50,26 @@ pub enum ExperimentError {
         reason: String,
     },
     /// A result could not be written. What was there before is unchanged.
-    #[error("cannot write {}: {source}", path.display())]
-    #[diagnostic(help("check that the folder exists, is writable, and that the disk has room"))]
+    #[error("cannot write {}: {cause}", path.display())]
+    #[diagnostic(help(
+        "what was there is unchanged; check that the folder is writable and the disk has room"
+    ))]
     Output {
         /// Which file or folder.
         path: PathBuf,
         /// What the system said.
-        source: io::Error,
+        cause: io::Error,
     },
     /// Some of many runs failed; the others were finished and written.
     #[error("{} of the runs failed:\n{}", failures.len(), failures.join("\n"))]
+    #[diagnostic(help("the other runs were finished and written"))]
     Runs {
         /// What happened to each.
         failures: Vec<String>,
     },
     /// The user asked to stop.
-    #[error("interrupted; what had finished by then was written")]
+    #[error("interrupted")]
+    #[diagnostic(help("runs that had finished were written, half-written files were not"))]
     Interrupted,
 }
 
@@ -76,9 +82,9 @@ impl ExperimentError {
 
     /// Turns what a writer says into the error that names its file.
     pub(crate) fn output<E: Into<io::Error>>(path: &Path) -> impl FnOnce(E) -> Self + '_ {
-        move |source| Self::Output {
+        move |cause| Self::Output {
             path: path.to_owned(),
-            source: source.into(),
+            cause: cause.into(),
         }
     }
 }

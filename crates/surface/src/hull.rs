@@ -3,6 +3,15 @@
 //! A new point deletes the faces that it lies *strictly* outside of and is joined to the edge of
 //! the hole. Faces in whose plane it lies stay, so no face without area ever arises: a point on
 //! the line of an edge of the hole would lie in the plane of the deleted face beside it.
+//!
+//! Why not `try_convex_hull` of parry 0.31.1, a dependency anyway: it rounds, and gives wrong
+//! surfaces without an error. Points in general position come out right, and 2 to 25 times faster
+//! (50 to 2000 points). But where many share planes, faces fold over others: of 2000 random
+//! rotations, those of a hexagonal prism with three rings of corners went wrong 130 times (volume
+//! up to 17 % too large), those of the 26 outer points of a 3 × 3 × 3 grid 75 times (40 %); 20
+//! points with whole coordinates can be enough. Bodies thinner than about 0.1 % of their diagonal
+//! are taken for flat and lose corners. [`Topology::from_faces`](crate::Topology::from_faces)
+//! accepts most of these surfaces. `tests/hull.rs` holds an example of each kind.
 
 use nalgebra::Point3;
 

@@ -28,7 +28,9 @@ mod winding;
 pub use error::SurfaceError;
 pub use features::pick_features;
 pub use mesh::Mesh;
-pub use phantom::{DEFAULT_PHANTOM_SPACING_CM, heart_phantom};
+pub use phantom::{
+    DEFAULT_PHANTOM_SPACING_CM, MAX_PHANTOM_SPACING_CM, MIN_PHANTOM_SPACING_CM, heart_phantom,
+};
 pub use stl::{MAX_MESH_BYTES, MAX_MESH_FACES};
 pub use surface::Surface;
 pub use topology::Topology;

@@ -7,7 +7,7 @@
 
 mod common;
 
-use adslam_surface::{SurfaceError, Topology};
+use adslam_surface::{Mesh, SurfaceError, Topology};
 use common::{Point, cube, grid_point, hull, p, polygon, sphere};
 use proptest::prelude::*;
 
@@ -46,6 +46,60 @@ fn cube_and_subdivided_cube_have_12_faces_over_the_8_corners() {
     assert_eq!(topology.faces().len(), 12);
     assert_eq!(corners(&topology), [0, 4, 20, 24, 100, 104, 120, 124]);
     assert_eq!(topology.points_off_surface().len(), 117);
+}
+
+/// Up to seven of the points share a plane. The hull of parry 0.31.1 has points 3 and 19 for
+/// corners as well, and three faces that fold over others: volume 32.5.
+#[test]
+fn many_points_on_common_planes_leave_no_fold() {
+    let points = [
+        [-2, 0, 2],
+        [1, -2, 1],
+        [2, 0, -1],
+        [0, 0, -2],
+        [-1, 2, 0],
+        [1, -2, -2],
+        [0, -1, 2],
+        [-1, 2, -2],
+        [-2, -2, -2],
+        [1, 1, -1],
+        [-2, 1, 2],
+        [1, -1, 1],
+        [-1, 2, 1],
+        [1, 0, -1],
+        [-2, 1, 1],
+        [-1, 1, 1],
+        [-1, -1, -1],
+        [0, 1, -1],
+        [-2, 0, 1],
+        [-1, -1, 1],
+    ];
+    let points = points.map(|q: [i32; 3]| Point::from(q.map(f64::from)));
+    let topology = Topology::convex_hull(&points).unwrap();
+    let expected = [0, 1, 2, 5, 6, 7, 8, 9, 10, 11, 12, 14];
+    assert_eq!(corners(&topology), expected);
+    for face in topology.faces() {
+        assert!(points.iter().all(|q| above(&points, face, q) <= 0.0));
+    }
+    let solid = Mesh {
+        vertices: points.to_vec(),
+        faces: topology.faces().to_vec(),
+    };
+    assert_eq!(solid.volume(), 31.5);
+}
+
+/// parry 0.31.1 takes both for flat, and gives 4 faces and 2.
+#[test]
+fn plates_and_rods_keep_their_eight_corners() {
+    for sides in [[1.0, 1.0, 1e-6], [10.0, 0.005, 0.005]] {
+        let points: Vec<Point> = cube()
+            .iter()
+            .map(|q| Point::from([0, 1, 2].map(|i| q[i] * sides[i])))
+            .collect();
+        let topology = Topology::convex_hull(&points).unwrap();
+        assert_eq!(topology.faces().len(), 12);
+        assert_eq!(corners(&topology).len(), 8);
+    }
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! `adslam filter`
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::BufReader;
+use std::path::Path;
 
 use adslam_experiment::ExperimentError;
 use adslam_experiment::diagnostics::InputError;
@@ -9,6 +10,7 @@ use adslam_experiment::log::{TailPolicy, filter_log};
 use adslam_experiment::output::{AtomicFile, prepare_folder};
 use adslam_experiment::run::Interrupt;
 
+use crate::print::{say, tell};
 use crate::{FilterArgs, progress};
 
 /// Runs the estimator over a log and writes its estimates.
@@ -17,6 +19,12 @@ use crate::{FilterArgs, progress};
 /// Bad input, a covariance that breaks down, a file that cannot be written, or an interruption.
 pub fn filter(args: &FilterArgs, interrupt: &Interrupt) -> Result<(), ExperimentError> {
     let log = File::open(&args.log).map_err(|error| InputError::unreadable(&args.log, error))?;
+    if same_file(&args.log, &args.out) {
+        let message = format!("{} is the log itself", args.out.display());
+        return Err(InputError::about_file(&args.out, message)
+            .with_help("give another path with --out, so that the log is not lost")
+            .into());
+    }
     if let Some(folder) = args
         .out
         .parent()
@@ -39,13 +47,25 @@ pub fn filter(args: &FilterArgs, interrupt: &Interrupt) -> Result<(), Experiment
     let summary = result?;
     out.commit()?;
     if let Some(reason) = &summary.stopped_by {
-        eprintln!("warning: {}; kept the steps before it", reason.message());
+        tell(format_args!(
+            "warning: {}; kept the {} steps before it",
+            reason.message(),
+            summary.steps
+        ));
     }
-    println!(
+    say(format_args!(
         "filtered {} steps with {} features; wrote {}",
         summary.steps,
         summary.features,
         args.out.display()
-    );
+    ));
     Ok(())
+}
+
+/// Whether both paths lead to one file, be it through links or `..`.
+fn same_file(a: &Path, b: &Path) -> bool {
+    match (fs::canonicalize(a), fs::canonicalize(b)) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    }
 }

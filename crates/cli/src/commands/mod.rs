@@ -9,10 +9,3 @@ pub use check::check;
 pub use filter::filter;
 pub use run::run;
 pub use tables::tables;
-
-/// Prints warnings to the standard error stream.
-fn warn(warnings: &[String]) {
-    for warning in warnings {
-        eprintln!("warning: {warning}");
-    }
-}

@@ -6,7 +6,7 @@ use adslam_experiment::run::{Interrupt, Observer, RunRecorder, Setup, StepView, 
 use adslam_experiment::scenario::Scenario;
 use indicatif::ProgressBar;
 
-use super::warn;
+use crate::print::{say, warn};
 use crate::{RunArgs, progress};
 
 /// Runs one planner once and writes the run into a folder.
@@ -37,7 +37,7 @@ pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), ExperimentError>
         .map_or("not all seen".to_owned(), |step| {
             format!("all seen at step {step}")
         });
-    println!(
+    say(format_args!(
         "{}, {}, seed {}: observed {} feature times, {coverage}, mean pose error {:.3}, mean \
          feature error {:.3} cm",
         setup.name,
@@ -46,12 +46,16 @@ pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), ExperimentError>
         summary.observed,
         summary.pose_error_mean,
         summary.feature_error_mean
-    );
+    ));
     let names: Vec<String> = files
         .iter()
         .filter_map(|f| Some(f.file_name()?.to_string_lossy().into_owned()))
         .collect();
-    println!("wrote {} to {}", names.join(", "), args.out.display());
+    say(format_args!(
+        "wrote {} to {}",
+        names.join(", "),
+        args.out.display()
+    ));
     Ok(())
 }
 

@@ -5,7 +5,7 @@ use adslam_experiment::output::{AtomicFile, prepare_folder};
 use adslam_experiment::run::Interrupt;
 use adslam_experiment::tables::{TablePlan, TablesOptions, markdown, terminal, write_json};
 
-use super::warn;
+use crate::print::{say, warn};
 use crate::{TablesArgs, progress};
 
 /// Runs a configuration, prints its tables, and writes tables.md and tables.json.
@@ -22,14 +22,20 @@ pub fn tables(args: &TablesArgs, interrupt: &Interrupt) -> Result<(), Experiment
     };
     let plan = TablePlan::load(&args.config, &options)?;
     prepare_folder(&args.out)?;
+    let (md, json) = (args.out.join("tables.md"), args.out.join("tables.json"));
+    let mut files = (AtomicFile::create(&md)?, AtomicFile::create(&json)?);
     let bar = progress::bar(plan.total_runs(), "runs");
     let tables = plan.run(interrupt, &|| bar.inc(1));
     bar.finish_and_clear();
+    files.0.add(&markdown(&tables))?;
+    write_json(&tables, &mut files.1)?;
+    AtomicFile::commit_all(vec![files.0, files.1])?;
     warn(&tables.warnings);
-    print!("{}", terminal(&tables));
-    let (md, json) = (args.out.join("tables.md"), args.out.join("tables.json"));
-    AtomicFile::write_all_to(&md, markdown(&tables).as_bytes())?;
-    write_json(&tables, &json)?;
-    println!("wrote {} and {}", md.display(), json.display());
+    say(terminal(&tables));
+    say(format_args!(
+        "wrote {} and {}",
+        md.display(),
+        json.display()
+    ));
     tables.into_result()
 }

@@ -88,7 +88,7 @@ pub fn update(
 ) -> (State, DMatrix<f64>) {
     let (h, o, y) = stacked(state, features, pairs, noise);
     let s = &h * p * h.transpose() + DMatrix::from_diagonal(&o);
-    let gain = p * h.transpose() * s.try_inverse().unwrap();
+    let gain = p * h.transpose() * s.try_inverse().expect("S is invertible");
     let delta = &gain * y;
     let mut updated = state.clone();
     updated.pose = updated

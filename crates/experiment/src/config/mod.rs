@@ -11,16 +11,18 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-pub use check::{FileKind, check_file};
+pub use check::{CheckedFile, check_file};
 pub use plan::ExperimentPlan;
 pub use published::{Published, PublishedPlanner, PublishedScenario, StepsToCover};
 
-use crate::diagnostics::{Document, InputError};
+use crate::diagnostics::{Document, FileKind, InputError};
 use crate::scenario::PlannerName;
 use crate::scenario::values::{Count, List, Name, Seed};
 
+/// More runs of a planner are a mistake: their summaries would not fit into memory.
+pub const MOST_RUNS: usize = 100_000;
 /// How many times each planner runs in each experiment.
-type Runs = Count<1, 100_000>;
+type Runs = Count<1, { MOST_RUNS as u64 }>;
 
 /// A configuration with everything it refers to read, overridden and checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,7 +73,9 @@ impl Config {
     /// When one of the files cannot be read or holds anything but what belongs there. A scenario's
     /// own fault is shown in the scenario's file, that of an override in the configuration.
     pub fn load(path: &Path) -> Result<Self, InputError> {
-        Self::from_document(&Document::read(path)?)
+        let document = Document::read(path)?;
+        FileKind::Configuration.expect(&document)?;
+        Self::from_document(&document)
     }
 
     fn from_document(document: &Document) -> Result<Self, InputError> {

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
 
-use crate::diagnostics::{Document, InputError};
+use crate::diagnostics::{Document, FileKind, InputError};
 use crate::scenario::PlannerName;
 use crate::scenario::values::{Count, List, Name, NonNegative};
 
@@ -91,7 +91,9 @@ impl Published {
     /// # Errors
     /// When it cannot be read or holds anything else; the error points at the place.
     pub fn load(path: &Path) -> Result<Self, InputError> {
-        Self::from_document(&Document::read(path)?)
+        let document = Document::read(path)?;
+        FileKind::Published.expect(&document)?;
+        Self::from_document(&document)
     }
 
     pub(super) fn from_document(document: &Document) -> Result<Self, InputError> {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use serde::de::DeserializeOwned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::explain::explain;
+use super::explain::{explain, explain_syntax};
 use super::{InputError, key_path, overrides};
 
 /// Files above this size are not ours: the largest that a person writes has a few kilobytes.
@@ -150,7 +150,9 @@ impl Document {
         T::deserialize(Deserializer::from(root)).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
             let keys = key_path::keys_of_table_at(&tables, &span);
-            self.error_in(span, "").explained(explain(&error, &keys))
+            self.error_in(span, "")
+                .explained(explain(&error, &keys))
+                .with_help_if_none("docs/scenario.md says what belongs here")
         })
     }
 
@@ -273,9 +275,7 @@ fn table_at<'a, 'i>(root: &'a DeTable<'i>, path: &str) -> Option<&'a DeTable<'i>
 fn parse(source: &Source) -> Result<DeTable<'_>, InputError> {
     let parsed = DeTable::parse(&source.text).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
-        InputError::in_text(&source.path, &source.text, span, "")
-            .explained(explain(&error, &[]))
-            .with_help_if_none("this is not TOML; https://toml.io shows how it is written")
+        InputError::in_text(&source.path, &source.text, span, "").explained(explain_syntax(&error))
     })?;
     Ok(parsed.into_inner())
 }

@@ -90,6 +90,32 @@ pub(super) fn explain(error: &toml::de::Error, choices: &[&str]) -> Explanation 
     }
 }
 
+/// Puts an error of what is not even TOML in better words.
+pub(super) fn explain_syntax(error: &toml::de::Error) -> Explanation {
+    let text = error.message();
+    let (message, help) = if text.starts_with("string values must be quoted")
+        // What begins like `true` or `false` is taken for it.
+        || text.starts_with("invalid boolean")
+    {
+        (
+            "string values must be quoted",
+            "write numbers like 3.0, lists like [1.0, 2.0] and texts like \"text\"",
+        )
+    } else if text.starts_with("duplicate key") {
+        (text, "keep one of the two")
+    } else {
+        (
+            text,
+            "this is not TOML; https://toml.io shows how it is written",
+        )
+    };
+    Explanation {
+        message: message.to_owned(),
+        label: "here".to_owned(),
+        help: Some(help.to_owned()),
+    }
+}
+
 impl InputError {
     /// The error with message, label and help of an explanation, at a place.
     pub(super) fn explained(mut self, explanation: Explanation) -> Self {

@@ -2,10 +2,12 @@
 //!
 //! A log is JSON lines: a header, then a line a step. `docs/log.md` is the reference of the format.
 
+mod explain;
 mod format;
+mod lines;
 mod read;
 mod replay;
 
-pub use format::{EstimateLine, LogHeader, LogStep};
+pub use format::{EstimateLine, FORMAT, LogHeader, LogStep, VERSION};
 pub use read::LogReader;
 pub use replay::{Replay, ReplaySummary, TailPolicy, filter_log};

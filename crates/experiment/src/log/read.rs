@@ -1,16 +1,17 @@
 //! Reading a log line by line, checking each.
 
 use std::collections::HashSet;
-use std::io::{BufRead, Read};
-use std::path::{Path, PathBuf};
-
-use serde::de::DeserializeOwned;
+use std::io::BufRead;
+use std::path::Path;
 
 use super::format::{FORMAT, LogHeader, LogStep, VERSION};
+use super::lines::Lines;
 use crate::diagnostics::InputError;
 
-/// The longest line that is read: a step with a few thousand features and all their pairs fits.
-const LONGEST_LINE: u64 = 1 << 30;
+/// As many features as a scenario may have: the covariance of more would not fit into memory.
+const MOST_FEATURES: usize = 2_000;
+/// Entries of a covariance that mirror each other may differ by rounding, relative to the variances.
+const ASYMMETRY: f64 = 1e-9;
 
 /// A log being read. Gives the steps after the header; ends after an error.
 #[derive(Debug)]
@@ -27,11 +28,7 @@ impl<R: BufRead> LogReader<R> {
     /// # Errors
     /// [`InputError`] with the line, what is wrong with it, and what to do.
     pub fn new(reader: R, path: &Path) -> Result<Self, InputError> {
-        let mut lines = Lines {
-            reader,
-            path: path.to_owned(),
-            number: 0,
-        };
+        let mut lines = Lines::new(reader, path);
         let first = lines.next()?.ok_or_else(|| {
             InputError::about_file(path, format!("{} is empty", path.display()))
                 .with_help("the first line of a log is its header; see docs/log.md")
@@ -56,7 +53,7 @@ impl<R: BufRead> LogReader<R> {
     /// The number of the line read last, from 1.
     #[must_use]
     pub fn line(&self) -> usize {
-        self.lines.number
+        self.lines.number()
     }
 
     /// The next step; nothing at the end.
@@ -100,6 +97,10 @@ impl<R: BufRead> LogReader<R> {
                 "a log needs at least one",
             );
         }
+        if header.features > MOST_FEATURES {
+            let what = format!("says that there are {} features", header.features);
+            return wrong(what, &format!("a log may have up to {MOST_FEATURES}"));
+        }
         if header.initial.features.len() != header.features {
             let what = format!(
                 "says that there are {} features, and gives the first positions of {}",
@@ -107,6 +108,30 @@ impl<R: BufRead> LogReader<R> {
                 header.initial.features.len()
             );
             return wrong(what, "make the two agree");
+        }
+        self.check_pose_covariance()
+    }
+
+    /// Whether it can be a covariance at first sight; whether it really is one shows in the filter.
+    fn check_pose_covariance(&self) -> Result<(), InputError> {
+        let covariance = &self.header.initial.pose_covariance;
+        for (i, row) in covariance.iter().enumerate() {
+            let variance = row[i];
+            if variance < 0.0 {
+                let what = format!("has the variance {variance} in pose_covariance[{i}][{i}]");
+                return Err(self.error(&what, "variances are squares of sigmas: write 0 or more"));
+            }
+            for (j, other) in covariance.iter().enumerate().take(i) {
+                let (below, above) = (row[j], other[i]);
+                let scale = variance.max(other[j]).max(below.abs());
+                if (below - above).abs() > ASYMMETRY * scale {
+                    let what = format!(
+                        "has {below} in pose_covariance[{i}][{j}] and {above} in \
+                         pose_covariance[{j}][{i}]"
+                    );
+                    return Err(self.error(&what, "a covariance is symmetric: make them equal"));
+                }
+            }
         }
         Ok(())
     }
@@ -165,62 +190,5 @@ impl<R: BufRead> LogReader<R> {
 
     fn error(&self, what: &str, help: &str) -> InputError {
         self.lines.error(what, help)
-    }
-}
-
-/// The lines of a file, and errors that name them.
-#[derive(Debug)]
-struct Lines<R> {
-    reader: R,
-    path: PathBuf,
-    /// Of the line read last, from 1.
-    number: usize,
-}
-
-impl<R: BufRead> Lines<R> {
-    /// The next line that is not blank.
-    fn next(&mut self) -> Result<Option<String>, InputError> {
-        loop {
-            let mut bytes = Vec::new();
-            let mut limited = (&mut self.reader).take(LONGEST_LINE);
-            let read = limited
-                .read_until(b'\n', &mut bytes)
-                .map_err(|error| InputError::unreadable(&self.path, error))?;
-            if read == 0 {
-                return Ok(None);
-            }
-            self.number += 1;
-            let line = String::from_utf8(bytes).map_err(|_| {
-                self.error("is not UTF-8 text", "a log is text, a JSON object a line")
-            })?;
-            if !line.trim().is_empty() {
-                return Ok(Some(line));
-            }
-        }
-    }
-
-    fn parse<T: DeserializeOwned>(&self, line: &str, kind: &str) -> Result<T, InputError> {
-        serde_json::from_str(line).map_err(|error| {
-            // serde_json counts lines within the line.
-            let reason = error.to_string();
-            let reason = reason.split(" at line ").next().unwrap_or(&reason);
-            let column = error.column();
-            if error.is_eof() {
-                return self.error(
-                    &format!("ends in the middle of the {kind} (column {column}): {reason}"),
-                    "the log was cut off; remove the broken line, or keep what is complete with \
-                     --keep-complete",
-                );
-            }
-            self.error(
-                &format!("(column {column}) is no valid {kind}: {reason}"),
-                "docs/log.md shows the keys of each line",
-            )
-        })
-    }
-
-    fn error(&self, what: &str, help: &str) -> InputError {
-        let message = format!("{}: line {} {what}", self.path.display(), self.number);
-        InputError::about_file(&self.path, message).with_help(help)
     }
 }

@@ -1,6 +1,6 @@
 //! The filter over a log.
 
-use std::io::{BufRead, Write};
+use std::io::BufRead;
 use std::path::Path;
 
 use adslam_estimator::{
@@ -57,7 +57,10 @@ impl<R: BufRead> Replay<R> {
                 "{}: line 1: the {what} cannot be used: {error}",
                 path.display()
             );
-            InputError::about_file(path, message)
+            InputError::about_file(path, message).with_help(
+                "give finite numbers, and sigmas and variances that are not negative; docs/log.md \
+                 says which sigmas may be 0",
+            )
         };
         let ekf = Ekf::new(log.header().noise.into()).map_err(|error| about("noise", error))?;
         let belief = log
@@ -81,12 +84,11 @@ impl<R: BufRead> Replay<R> {
         let Some(step) = self.log.next_step()? else {
             return Ok(None);
         };
-        self.apply(&step)
-            .map_err(|source| ExperimentError::Filter {
-                run: format!("{}, line {}", self.name, self.log.line()),
-                step: usize::try_from(step.step).unwrap_or(usize::MAX),
-                source,
-            })?;
+        self.apply(&step).map_err(|cause| ExperimentError::Filter {
+            run: format!("{}, line {}", self.name, self.log.line()),
+            step: usize::try_from(step.step).unwrap_or(usize::MAX),
+            cause,
+        })?;
         Ok(Some(step.step))
     }
 
@@ -176,9 +178,7 @@ pub fn filter_log(
             }
             Err(error) => return Err(error),
         };
-        let line = EstimateLine::of(step, replay.belief());
-        serde_json::to_writer(&mut *out, &line).map_err(|e| out.failed(e))?;
-        out.write_all(b"\n").map_err(|e| out.failed(e))?;
+        out.add_json_line(&EstimateLine::of(step, replay.belief()))?;
         summary.steps += 1;
         progress();
     }

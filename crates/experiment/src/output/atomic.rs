@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use tempfile::NamedTempFile;
+use tempfile::{Builder, NamedTempFile};
 
 use crate::ExperimentError;
 use crate::diagnostics::InputError;
@@ -22,38 +22,57 @@ impl AtomicFile {
     /// Starts a file that will lie at `path`; its folder must exist.
     ///
     /// # Errors
-    /// [`ExperimentError::Output`] if the folder cannot be written to.
+    /// [`ExperimentError::Output`] if the folder cannot be written to; [`InputError`] if what lies at
+    /// `path` is a folder, a device or a pipe, which must not be replaced by a file.
     pub fn create(path: &Path) -> Result<Self, ExperimentError> {
+        refuse_other_than_file(path)?;
         let folder = match path.parent() {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
         };
-        let file = NamedTempFile::new_in(folder).map_err(ExperimentError::output(path))?;
+        let file = readable_temporary(folder).map_err(ExperimentError::output(path))?;
         Ok(Self {
             path: path.to_owned(),
             file: BufWriter::new(file),
         })
     }
 
-    /// Writes `content` to `path`, whole or not at all.
+    /// A file with this content that will lie at `path`.
     ///
     /// # Errors
-    /// [`ExperimentError::Output`].
-    pub fn write_all_to(path: &Path, content: &[u8]) -> Result<(), ExperimentError> {
+    /// As [`AtomicFile::create`].
+    pub fn with_content(path: &Path, content: &[u8]) -> Result<Self, ExperimentError> {
         let mut file = Self::create(path)?;
         file.write_all(content)
-            .map_err(ExperimentError::output(path))?;
-        file.commit()
+            .map_err(|error| file.failed(error))?;
+        Ok(file)
     }
 
-    /// Writes `value` to `path` as readable JSON, whole or not at all.
+    /// Adds text.
     ///
     /// # Errors
     /// [`ExperimentError::Output`].
-    pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), ExperimentError> {
-        let mut json = serde_json::to_vec_pretty(value).map_err(ExperimentError::output(path))?;
-        json.push(b'\n');
-        Self::write_all_to(path, &json)
+    pub fn add(&mut self, text: &str) -> Result<(), ExperimentError> {
+        self.write_all(text.as_bytes())
+            .map_err(|error| self.failed(error))
+    }
+
+    /// Adds `value` as JSON on one line.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Output`].
+    pub fn add_json_line(&mut self, value: &impl Serialize) -> Result<(), ExperimentError> {
+        serde_json::to_writer(&mut *self, value).map_err(|error| self.failed(error))?;
+        self.add("\n")
+    }
+
+    /// Adds `value` as JSON that people can read.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Output`].
+    pub fn add_json(&mut self, value: &impl Serialize) -> Result<(), ExperimentError> {
+        serde_json::to_writer_pretty(&mut *self, value).map_err(|error| self.failed(error))?;
+        self.add("\n")
     }
 
     /// Where the file will lie.
@@ -63,10 +82,10 @@ impl AtomicFile {
     }
 
     /// The error of a write to this file that failed.
-    pub(crate) fn failed(&self, error: impl Into<io::Error>) -> ExperimentError {
+    fn failed(&self, error: impl Into<io::Error>) -> ExperimentError {
         ExperimentError::Output {
             path: self.path.clone(),
-            source: error.into(),
+            cause: error.into(),
         }
     }
 
@@ -75,16 +94,33 @@ impl AtomicFile {
     /// # Errors
     /// [`ExperimentError::Output`]; what was there is then unchanged.
     pub fn commit(self) -> Result<(), ExperimentError> {
-        let Self { path, file } = self;
-        let finish = || -> io::Result<()> {
-            let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
-            make_readable(file.as_file())?;
-            file.as_file().sync_all()?;
-            file.persist(&path).map_err(|error| error.error)?;
-            Ok(())
-        };
-        finish().map_err(ExperimentError::output(&path))
+        Self::commit_all(vec![self])
     }
+
+    /// Puts files that belong together in their places: none before all are complete on the disk.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Output`]; unless a file cannot be renamed, nothing has changed then.
+    pub fn commit_all(files: Vec<Self>) -> Result<(), ExperimentError> {
+        let complete = files
+            .into_iter()
+            .map(|Self { path, file }| match on_disk(file) {
+                Ok(file) => Ok((path, file)),
+                Err(error) => Err(ExperimentError::output(&path)(error)),
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        for (path, file) in complete {
+            file.persist(&path)
+                .map_err(|error| ExperimentError::output(&path)(error.error))?;
+        }
+        Ok(())
+    }
+}
+
+fn on_disk(file: BufWriter<NamedTempFile>) -> io::Result<NamedTempFile> {
+    let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
+    file.as_file().sync_all()?;
+    Ok(file)
 }
 
 impl Write for AtomicFile {
@@ -97,16 +133,28 @@ impl Write for AtomicFile {
     }
 }
 
-/// Temporary files are private to their owner; results are not.
-#[cfg(unix)]
-fn make_readable(file: &fs::File) -> io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.set_permissions(fs::Permissions::from_mode(0o644))
+/// A temporary file that others may read as far as the user's umask allows: those of `tempfile` are
+/// private to their owner, and results are not.
+fn readable_temporary(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
 }
 
-#[cfg(not(unix))]
-fn make_readable(_: &fs::File) -> io::Result<()> {
-    Ok(())
+/// Renaming onto `/dev/null` would replace it, and onto a folder would fail when all is computed.
+fn refuse_other_than_file(path: &Path) -> Result<(), InputError> {
+    let kind = match fs::metadata(path) {
+        Ok(there) if there.is_dir() => "a folder",
+        Ok(there) if !there.is_file() => "a device or a pipe",
+        _ => return Ok(()),
+    };
+    let message = format!("{} is {kind}, and a file goes there", path.display());
+    Err(InputError::about_file(path, message)
+        .with_help("give another path, or remove what is there"))
 }
 
 /// Makes sure that `folder` exists and can be written to, before any long work begins.
@@ -134,18 +182,22 @@ pub fn prepare_folder(folder: &Path) -> Result<(), InputError> {
 mod tests {
     use super::*;
 
+    fn write(path: &Path, text: &str) -> Result<(), ExperimentError> {
+        AtomicFile::with_content(path, text.as_bytes())?.commit()
+    }
+
     #[test]
     fn nothing_appears_before_commit_and_nothing_is_lost_without_it() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("result.txt");
-        AtomicFile::write_all_to(&path, b"first").unwrap();
+        write(&path, "first").unwrap();
         let mut second = AtomicFile::create(&path).unwrap();
         second.write_all(b"half").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"first");
         drop(second);
         assert_eq!(fs::read(&path).unwrap(), b"first");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "no litter");
-        AtomicFile::write_all_to(&path, b"third").unwrap();
+        write(&path, "third").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"third");
     }
 
@@ -161,5 +213,29 @@ mod tests {
         prepare_folder(&folder.path().join("new/deep")).unwrap();
         let missing = AtomicFile::create(&folder.path().join("absent/file")).unwrap_err();
         assert!(matches!(missing, ExperimentError::Output { .. }));
+    }
+
+    #[test]
+    fn only_files_are_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = AtomicFile::create(folder.path()).unwrap_err();
+        assert!(error.is_bad_input() && error.to_string().contains("is a folder"));
+        #[cfg(unix)]
+        {
+            let error = AtomicFile::create(Path::new("/dev/null")).unwrap_err();
+            assert!(error.to_string().contains("a device"), "{error}");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn results_may_be_read_as_the_umask_says() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let (ours, usual) = (folder.path().join("ours"), folder.path().join("usual"));
+        write(&ours, "").unwrap();
+        fs::write(&usual, "").unwrap();
+        let mode = |path| fs::metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(ours), mode(usual));
     }
 }

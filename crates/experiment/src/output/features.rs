@@ -63,11 +63,11 @@ impl FeaturesFile {
         }
     }
 
-    /// Writes the features as they are at the last step and puts the file in its place.
+    /// Writes the features as they are at the last step; the file still has to be committed.
     ///
     /// # Errors
     /// [`ExperimentError::Output`].
-    pub fn commit(self, last: &LastFeatures) -> Result<(), ExperimentError> {
+    pub fn finish(self, last: &LastFeatures) -> Result<AtomicFile, ExperimentError> {
         let path = self.file.path().to_owned();
         let mut writer = csv::Writer::from_writer(self.file);
         for (i, seen) in self.seen.iter().enumerate() {
@@ -94,10 +94,9 @@ impl FeaturesFile {
                 })
                 .map_err(ExperimentError::output(&path))?;
         }
-        let file = writer
+        writer
             .into_inner()
-            .map_err(|error| ExperimentError::output(&path)(error.into_error()))?;
-        file.commit()
+            .map_err(|error| ExperimentError::output(&path)(error.into_error()))
     }
 }
 

@@ -165,16 +165,14 @@ impl StepsFile {
         }
     }
 
-    /// Puts the table in its place.
+    /// Ends the table; the file still has to be committed.
     ///
     /// # Errors
     /// [`ExperimentError::Output`].
-    pub fn commit(self) -> Result<(), ExperimentError> {
-        let path = self.path;
-        let file = self
-            .writer
+    pub fn finish(self) -> Result<AtomicFile, ExperimentError> {
+        let Self { writer, path, .. } = self;
+        writer
             .into_inner()
-            .map_err(|error| ExperimentError::output(&path)(error.into_error()))?;
-        file.commit()
+            .map_err(|error| ExperimentError::output(&path)(error.into_error()))
     }
 }

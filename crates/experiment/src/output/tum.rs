@@ -45,11 +45,9 @@ impl TumFile {
         .map_err(ExperimentError::output(self.file.path()))
     }
 
-    /// Puts the file in its place.
-    ///
-    /// # Errors
-    /// [`ExperimentError::Output`].
-    pub fn commit(self) -> Result<(), ExperimentError> {
-        self.file.commit()
+    /// Ends the trajectory; the file still has to be committed.
+    #[must_use]
+    pub fn finish(self) -> AtomicFile {
+        self.file
     }
 }

@@ -60,6 +60,10 @@ impl Batch<'_> {
         batch
             .par_iter()
             .map(|run| {
+                // Even to begin a run, with its viewpoints, takes time.
+                if interrupt.requested() {
+                    return Err(ExperimentError::Interrupted);
+                }
                 let result = simulate(run.setup, run.planner, run.seed, interrupt, &mut NoObserver);
                 progress();
                 result

@@ -1,12 +1,18 @@
 //! One run: a planner, a filter and the simulated world, step by step; and many of them in parallel.
 
 mod batch;
+mod history;
 mod planners;
 mod record;
+mod rest_object;
 mod setup;
 mod simulate;
 
 pub use batch::{Batch, BatchResult, Interrupt, Progress};
+pub use history::{
+    Candidate, DrawnSurface, HISTORY_FILE, HISTORY_FORMAT, HISTORY_VERSION, HistoryDecision,
+    HistoryMetrics, HistoryRecorder, HistoryStep, ObjectStep, RunHistory,
+};
 pub use planners::build_planner;
 pub use record::RunRecorder;
 pub use setup::Setup;

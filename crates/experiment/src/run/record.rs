@@ -10,7 +10,7 @@ use crate::output::{AtomicFile, FeaturesFile, LastFeatures, StepsFile, TumFile};
 /// Writes a run into a folder. The files appear when the run has finished, all complete.
 #[derive(Debug)]
 pub struct RunRecorder {
-    folder: PathBuf,
+    summary: AtomicFile,
     steps: StepsFile,
     features: FeaturesFile,
     truth: TumFile,
@@ -25,7 +25,7 @@ impl RunRecorder {
     /// [`ExperimentError::Output`].
     pub fn create(folder: &Path, feature_count: usize) -> Result<Self, ExperimentError> {
         Ok(Self {
-            folder: folder.to_owned(),
+            summary: AtomicFile::create(&folder.join("summary.json"))?,
             steps: StepsFile::create(&folder.join("steps.csv"), feature_count)?,
             features: FeaturesFile::create(&folder.join("features.csv"), feature_count)?,
             truth: TumFile::create(&folder.join("truth.tum"))?,
@@ -34,22 +34,23 @@ impl RunRecorder {
         })
     }
 
-    /// Completes all files; returns their paths, summary.json first.
+    /// Completes all files and returns their paths. summary.json comes last: where it is, the others
+    /// are.
     ///
     /// # Errors
     /// [`ExperimentError::Output`].
-    pub fn commit(self, summary: &RunSummary) -> Result<Vec<PathBuf>, ExperimentError> {
-        self.steps.commit()?;
-        self.features.commit(&self.last)?;
-        self.truth.commit()?;
-        self.estimate.commit()?;
-        // Last, so that a summary means that the rest is there.
-        let path = self.folder.join("summary.json");
-        AtomicFile::write_json(&path, summary)?;
-        let others = ["steps.csv", "features.csv", "truth.tum", "estimate.tum"];
-        Ok(std::iter::once(path)
-            .chain(others.map(|name| self.folder.join(name)))
-            .collect())
+    pub fn commit(mut self, summary: &RunSummary) -> Result<Vec<PathBuf>, ExperimentError> {
+        self.summary.add_json(summary)?;
+        let files = vec![
+            self.steps.finish()?,
+            self.features.finish(&self.last)?,
+            self.truth.finish(),
+            self.estimate.finish(),
+            self.summary,
+        ];
+        let paths = files.iter().map(|file| file.path().to_owned()).collect();
+        AtomicFile::commit_all(files)?;
+        Ok(paths)
     }
 }
 

@@ -6,11 +6,12 @@ use adslam_deformation::ObjectMotion;
 use adslam_estimator::FilterNoise;
 use adslam_models::{Control, EulerAngles, Pose, Sensor};
 use adslam_planning::{ActionSet, PlanningModel};
-use adslam_surface::{Mesh, Surface, SurfaceError, Topology, heart_phantom, pick_features};
+use adslam_surface::{Mesh, Surface};
 use nalgebra::{Point3, Vector3};
 
+use super::rest_object::{RestObject, blamed};
 use crate::diagnostics::InputError;
-use crate::scenario::{self, Object, Scenario, Structure, Viewpoints, values};
+use crate::scenario::{self, Scenario, Structure, Viewpoints, values};
 use crate::world::{DeformationNoise, WorldModel, WorldNoise};
 
 /// Everything that the runs of one scenario have in common.
@@ -113,7 +114,7 @@ impl Setup {
             .map(|p| p + self.world.motion.offset(p, 1))
             .collect();
         let surface = Surface::new(&self.planning.topology, &at_start)
-            .map_err(|error| self.scenario.error_at("object", error))?;
+            .map_err(|error| blamed(&self.scenario, "object", &error))?;
         let distance = surface.signed_distance(&self.world.start.position);
         if distance <= 0.0 {
             let message = format!(
@@ -176,76 +177,6 @@ impl Setup {
                     .with_help("widen the grid, or make it finer"))
             }
         }
-    }
-}
-
-/// The object before it moves.
-struct RestObject {
-    features: Vec<Point3<f64>>,
-    topology: Topology,
-    drawn: Mesh,
-}
-
-impl RestObject {
-    fn build(scenario: &Scenario) -> Result<Self, InputError> {
-        let blame = |key: &'static str| move |error: SurfaceError| scenario.error_at(key, error);
-        match &scenario.object {
-            Object::Points(points) => {
-                let features: Vec<Point3<f64>> =
-                    points.positions_cm.iter().map(|p| p.point()).collect();
-                let topology = match &points.faces {
-                    Some(faces) => {
-                        let faces: Vec<[usize; 3]> =
-                            faces.iter().map(|face| face.map(|n| n.get())).collect();
-                        Topology::from_faces(&features, &faces)
-                            .map_err(blame("object.points.faces"))?
-                    }
-                    None => Topology::convex_hull(&features)
-                        .map_err(blame("object.points.positions_cm"))?,
-                };
-                let faces = topology.faces().to_vec();
-                let drawn = Mesh {
-                    vertices: features.clone(),
-                    faces,
-                };
-                Ok(Self {
-                    features,
-                    topology,
-                    drawn,
-                })
-            }
-            Object::Mesh(mesh) => {
-                let read = Mesh::read_stl(&mesh.file).map_err(|error| {
-                    scenario
-                        .error_at("object.mesh.file", error)
-                        .with_help("give an STL file of one closed surface")
-                })?;
-                let placed = read.scaled_and_moved(mesh.unit.in_cm(), *mesh.offset_cm);
-                Self::picked(placed, mesh.features, mesh.feature_seed)
-                    .map_err(blame("object.mesh.features"))
-            }
-            Object::Phantom(phantom) => {
-                let generated = heart_phantom(*phantom.spacing_cm)
-                    .map_err(blame("object.phantom.spacing_cm"))?;
-                Self::picked(generated, phantom.features, phantom.feature_seed)
-                    .map_err(blame("object.phantom.features"))
-            }
-        }
-    }
-
-    fn picked(
-        drawn: Mesh,
-        count: values::FeatureCount,
-        seed: values::Seed,
-    ) -> Result<Self, SurfaceError> {
-        let picked = pick_features(&drawn, count.get(), seed.as_u64())?;
-        let features: Vec<Point3<f64>> = picked.iter().map(|&i| drawn.vertices[i]).collect();
-        let topology = Topology::convex_hull(&features)?;
-        Ok(Self {
-            features,
-            topology,
-            drawn,
-        })
     }
 }
 

@@ -107,6 +107,7 @@ struct Run<'a> {
     belief: Belief,
     planner: Box<dyn Planner>,
     builder: SummaryBuilder,
+    deadline_ms: Option<f64>,
 }
 
 /// The true robot against the true object.
@@ -135,6 +136,7 @@ impl<'a> Run<'a> {
         let ekf = Ekf::new(setup.planning.noise).map_err(name.filter_failed(1))?;
         let belief = Belief::initial(setup.world.start, features, &Matrix6::zeros(), sigma)
             .map_err(name.filter_failed(1))?;
+        let deadline_ms = setup.scenario.deadline_ms(planner);
         let (planner, warnings) =
             build_planner(setup, planner, &belief, seed).map_err(name.planner_failed(1))?;
         let run = Self {
@@ -146,6 +148,7 @@ impl<'a> Run<'a> {
             ekf,
             belief,
             planner,
+            deadline_ms,
         };
         Ok((run, warnings))
     }
@@ -154,17 +157,21 @@ impl<'a> Run<'a> {
     fn advance(&mut self) -> Result<Decided, ExperimentError> {
         let n = self.world.step();
         let feature_motion = self.setup.known_feature_motion(n);
+        let start = Instant::now();
+        let time_is_up = self
+            .deadline_ms
+            .map(|limit| move || milliseconds_since(start) >= limit);
         let situation = Situation {
             belief: &self.belief,
             feature_motion: &feature_motion,
             model: &self.setup.planning,
+            time_is_up: time_is_up.as_ref().map(|late| late as &dyn Fn() -> bool),
         };
-        let start = Instant::now();
         let decision = self
             .planner
             .decide(&situation)
             .map_err(self.name.planner_failed(n))?;
-        let milliseconds = start.elapsed().as_secs_f64() * 1e3;
+        let milliseconds = milliseconds_since(start);
 
         self.world.advance(&decision.control);
         self.sight = Sight::of(&self.world, self.setup, &self.name)?;
@@ -247,6 +254,10 @@ impl Sight {
             surface_distance: surface.signed_distance(&world.pose().position),
         })
     }
+}
+
+fn milliseconds_since(start: Instant) -> f64 {
+    start.elapsed().as_secs_f64() * 1e3
 }
 
 /// What a run is called in errors.

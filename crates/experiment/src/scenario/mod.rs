@@ -34,7 +34,7 @@ pub use robot::{Actions, Robot, Sensor};
 use values::{Name, Steps};
 pub use viewpoints::{Fixed, Grid, Viewpoints};
 
-use crate::diagnostics::{Document, InputError};
+use crate::diagnostics::{Document, FileKind, InputError};
 
 /// A scenario file, read and checked.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -70,6 +70,9 @@ pub struct Scenario {
     pub viewpoints: Viewpoints,
     /// The planners' parameters.
     pub planners: Planners,
+    /// Whether the object is a mesh that was given beside the file, with [`Scenario::with_mesh`].
+    #[serde(skip)]
+    pub mesh_is_given: bool,
     /// The text all this came from, to point at when something turns out wrong later.
     #[serde(skip)]
     document: Document,
@@ -82,7 +85,9 @@ impl Scenario {
     /// When the file cannot be read or holds anything but a valid scenario; the error points at the
     /// place. A mesh file is not opened.
     pub fn load(path: &Path) -> Result<Self, InputError> {
-        Self::from_document(Document::read(path)?)
+        let document = Document::read(path)?;
+        FileKind::Scenario.expect(&document)?;
+        Self::from_document(document)
     }
 
     /// Reads and checks a scenario from `text`, as if it were the content of the file at `path`.
@@ -115,6 +120,7 @@ impl Scenario {
     pub fn with_mesh(mut self, file: impl Into<PathBuf>) -> Self {
         let placement = self.mesh_placement.as_ref();
         self.object = self.object.replaced_by_mesh(file.into(), placement);
+        self.mesh_is_given = true;
         self
     }
 
@@ -154,6 +160,16 @@ impl Scenario {
         own.map_or(self.filter_noise().feature_measurement_sigma_cm, |sigma| {
             *sigma
         })
+    }
+
+    /// The time that a planner has for a decision, ms; absent where it takes as long as it takes.
+    pub fn deadline_ms(&self, planner: PlannerName) -> Option<f64> {
+        let deadline = match planner {
+            PlannerName::Local => self.planners.local.deadline_ms,
+            PlannerName::Combined => self.planners.combined.deadline_ms,
+            PlannerName::Predetermined | PlannerName::Global => None,
+        };
+        deadline.map(|ms| *ms)
     }
 
     /// How the object whose features rest at `rest` (world frame, cm) truly moves.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use adslam_surface::DEFAULT_PHANTOM_SPACING_CM;
 use serde::Deserialize;
 
 use super::values::{FeatureCount, FeatureNumber, List, Seed, Spacing, Triple, Vec3};
@@ -76,7 +77,8 @@ pub struct Phantom {
     /// Seed of the picking; default 1.
     #[serde(default = "feature_seed")]
     pub feature_seed: Seed,
-    /// Distance between neighbouring vertices, about; default 0.3 cm.
+    /// Distance between neighbouring vertices, about; default
+    /// [`DEFAULT_PHANTOM_SPACING_CM`].
     #[serde(default = "spacing")]
     pub spacing_cm: Spacing,
 }
@@ -155,5 +157,5 @@ fn feature_seed() -> Seed {
 }
 
 fn spacing() -> Spacing {
-    Spacing::default_of(0.3)
+    Spacing::default_of(DEFAULT_PHANTOM_SPACING_CM)
 }

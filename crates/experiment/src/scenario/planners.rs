@@ -40,6 +40,9 @@ pub struct Predetermined {
 pub struct Local {
     /// The feature measurement's sigma assumed in planning; default the filter's.
     pub feature_measurement_sigma_cm: Option<Positive>,
+    /// Time for a decision; default as long as it takes. When it is up the best action scored so far
+    /// is taken, so that runs depend on the machine.
+    pub deadline_ms: Option<Positive>,
 }
 
 /// `[planners.global]`: how the path through viewpoints is found and followed; the combined
@@ -68,6 +71,9 @@ pub struct Combined {
     pub nearest_count: Option<Many>,
     /// The feature measurement's sigma assumed in planning; default the filter's.
     pub feature_measurement_sigma_cm: Option<Positive>,
+    /// Time for a decision; default as long as it takes. When it is up the best action scored so far
+    /// is taken, so that runs depend on the machine.
+    pub deadline_ms: Option<Positive>,
 }
 
 /// n_u of section III-D: how many of the safe actions, those nearest to the goal, are compared.

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::ExperimentError;
-use crate::config::{Config, ExperimentPlan, PublishedScenario};
-use crate::diagnostics::InputError;
+use crate::config::{Config, ExperimentPlan, MOST_RUNS, PublishedScenario};
+use crate::diagnostics::{InputError, nearest};
 use crate::metrics::RunSummary;
 use crate::run::{Batch, Interrupt, Setup};
 use crate::scenario::{Object, PlannerName};
@@ -94,8 +94,11 @@ impl TablePlan {
         } = config;
         let runs = options.runs.unwrap_or(runs);
         let about = |message: String| InputError::about_file(&path, message);
-        if runs == 0 {
-            return Err(about("there are 0 runs to do".to_owned()).with_help("ask for at least 1"));
+        if !(1..=MOST_RUNS).contains(&runs) {
+            return Err(
+                about(format!("there are {runs} runs of each planner to do"))
+                    .with_help(format!("ask for 1 to {MOST_RUNS} with --runs")),
+            );
         }
         let labels: Vec<&str> = experiments.iter().map(|plan| plan.label.as_str()).collect();
         if let Some(unknown) = options
@@ -104,7 +107,11 @@ impl TablePlan {
             .find(|wish| !labels.contains(&wish.as_str()))
         {
             let message = format!("{} has no experiment called {unknown:?}", path.display());
-            return Err(about(message).with_help(format!("there are {}", labels.join(", "))));
+            let known = labels.join(", ");
+            return Err(about(message).with_help(match nearest(unknown, labels) {
+                Some(near) => format!("did you mean {near}? There are {known}"),
+                None => format!("there are {known}"),
+            }));
         }
         let wanted = experiments
             .into_iter()
@@ -167,7 +174,7 @@ impl TablePlan {
                 let runs = results
                     .by_ref()
                     .take(self.runs)
-                    .filter_map(|r| tables.sort_in(r));
+                    .filter_map(|result| tables.sort_in(&plan.label, result));
                 PlannerRuns {
                     planner,
                     runs: runs.collect(),
@@ -186,8 +193,8 @@ impl TablePlan {
 }
 
 impl Tables {
-    /// The summary of a run that finished; notes what became of any other.
-    fn sort_in(&mut self, result: crate::run::BatchResult) -> Option<RunSummary> {
+    /// The summary of a run of the experiment `label` that finished; notes what became of any other.
+    fn sort_in(&mut self, label: &str, result: crate::run::BatchResult) -> Option<RunSummary> {
         match result {
             Ok(outcome) => {
                 self.warn(outcome.warnings);
@@ -198,7 +205,7 @@ impl Tables {
                 None
             }
             Err(error) => {
-                self.failures.push(error.to_string());
+                self.failures.push(format!("[{label}] {error}"));
                 None
             }
         }

@@ -1,7 +1,6 @@
 //! tables.json: every run, for machines.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use serde::Serialize;
 
@@ -43,11 +42,11 @@ struct PublishedPlannerJson {
     feature_error_max: f64,
 }
 
-/// Writes all runs, and the published values, to `path`.
+/// Writes all runs, and the published values.
 ///
 /// # Errors
 /// [`ExperimentError::Output`].
-pub fn write_json(tables: &Tables, path: &Path) -> Result<(), ExperimentError> {
+pub fn write_json(tables: &Tables, file: &mut AtomicFile) -> Result<(), ExperimentError> {
     let scenarios = tables.experiments.iter().map(|experiment| {
         let planners = experiment.planners.iter();
         let planners = planners
@@ -68,7 +67,7 @@ pub fn write_json(tables: &Tables, path: &Path) -> Result<(), ExperimentError> {
         scenarios: scenarios.collect(),
         published: published.collect(),
     };
-    AtomicFile::write_json(path, &json)
+    file.add_json(&json)
 }
 
 fn published_json(published: &PublishedScenario) -> PublishedJson {

@@ -11,15 +11,35 @@ use crate::metrics::RunSummary;
 /// Up to this many runs are listed one by one, as the paper does.
 const LISTED_RUNS: usize = 10;
 
+/// How the tables are set.
+#[derive(Clone, Copy)]
+struct Setting {
+    style: TableStyle,
+    heading: &'static str,
+    /// Between a published value and ours where both together are wide.
+    wide_separator: &'static str,
+}
+
 /// All tables, drawn with lines.
 #[must_use]
 pub fn terminal(tables: &Tables) -> String {
-    render(tables, presets::UTF8_FULL_CONDENSED, "")
+    let setting = Setting {
+        style: presets::UTF8_FULL_CONDENSED,
+        heading: "",
+        wide_separator: "\n",
+    };
+    let legend = "In each cell: the published value, then ours, the mean over the runs (range).";
+    format!("{legend}\n\n{}", render(tables, setting))
 }
 
 /// All tables as Markdown.
 #[must_use]
 pub fn markdown(tables: &Tables) -> String {
+    let setting = Setting {
+        style: presets::ASCII_MARKDOWN,
+        heading: "## ",
+        wide_separator: " / ",
+    };
     let mut text = format!("# {}\n\n", tables.title);
     if !tables.is_complete() {
         text.push_str("**Incomplete: some runs failed or were interrupted.**\n\n");
@@ -30,10 +50,10 @@ pub fn markdown(tables: &Tables) -> String {
          range in brackets.\n",
         tables.runs
     );
-    text + &render(tables, presets::ASCII_MARKDOWN, "## ")
+    text + &render(tables, setting)
 }
 
-fn render(tables: &Tables, style: TableStyle, heading: &str) -> String {
+fn render(tables: &Tables, setting: Setting) -> String {
     let mut text = String::new();
     for experiment in &tables.experiments {
         for (title, rows) in [
@@ -41,44 +61,58 @@ fn render(tables: &Tables, style: TableStyle, heading: &str) -> String {
             error_table(experiment),
             further_table(experiment),
         ] {
-            let _ = writeln!(
-                text,
-                "{heading}{title}\n\n{}\n",
-                draw(experiment, rows, style)
-            );
+            let table = draw(experiment, rows, setting);
+            let _ = writeln!(text, "{}{title}\n\n{table}\n", setting.heading);
         }
     }
     text
 }
 
 /// A row: what it shows, and a cell for each planner.
-type Row = (String, Vec<String>);
+type Row = (String, Vec<Cell>);
 
-fn draw(experiment: &ExperimentTables, rows: Vec<Row>, style: TableStyle) -> Table {
+/// A published value, if there is one, and ours.
+struct Cell {
+    published: Option<String>,
+    ours: String,
+}
+
+impl Cell {
+    fn new(published: Option<String>, ours: Option<String>) -> Self {
+        let ours = ours.unwrap_or_else(|| "-".to_owned());
+        Self { published, ours }
+    }
+
+    fn set(self, wide_separator: &str) -> String {
+        const WIDE: usize = 16;
+        let Some(published) = self.published else {
+            return self.ours;
+        };
+        let is_wide = published.chars().count() + self.ours.chars().count() > WIDE;
+        let separator = if is_wide { wide_separator } else { " / " };
+        published + separator + &self.ours
+    }
+}
+
+fn draw(experiment: &ExperimentTables, rows: Vec<Row>, setting: Setting) -> Table {
     let mut table = Table::new();
     let names = experiment
         .planners
         .iter()
         .map(|column| column.planner.to_string());
     table
-        .load_style(style)
+        .load_style(setting.style)
         .set_header(std::iter::once(String::new()).chain(names));
     for (name, cells) in rows {
+        let cells = cells
+            .into_iter()
+            .map(|cell| cell.set(setting.wide_separator));
         table.add_row(std::iter::once(name).chain(cells));
     }
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
     table
-}
-
-/// A published value beside ours; ours alone where nothing was published.
-fn beside(published: Option<String>, ours: Option<String>) -> String {
-    let ours = ours.unwrap_or_else(|| "-".to_owned());
-    match published {
-        Some(published) => format!("{published} / {ours}"),
-        None => ours,
-    }
 }
 
 fn published_of<'a>(
@@ -92,7 +126,7 @@ fn published_of<'a>(
 fn row(
     experiment: &ExperimentTables,
     name: &str,
-    cell: impl Fn(&PlannerRuns, Option<&PublishedPlanner>) -> String,
+    cell: impl Fn(&PlannerRuns, Option<&PublishedPlanner>) -> Cell,
 ) -> Row {
     let cells = experiment
         .planners
@@ -132,7 +166,7 @@ fn coverage_table(experiment: &ExperimentTables) -> (String, Vec<Row>) {
                         .get(k)
                         .map_or("-".to_owned(), |n| n.get().to_string())
                 });
-                beside(
+                Cell::new(
                     published,
                     ours.runs.get(k).map(|run| run.observed.to_string()),
                 )
@@ -146,7 +180,7 @@ fn coverage_table(experiment: &ExperimentTables) -> (String, Vec<Row>) {
             let published = published
                 .and_then(|p| Spread::of(p.observed.iter().map(|n| n.get() as f64)))
                 .map(|spread| format!("{spread:.0}"));
-            beside(
+            Cell::new(
                 published,
                 spread(&ours.runs, 0, |run| Some(run.observed as f64)),
             )
@@ -160,7 +194,7 @@ fn coverage_table(experiment: &ExperimentTables) -> (String, Vec<Row>) {
             |ours, published| {
                 let published =
                     published.map(|p| p.steps.get(k).map_or("-".to_owned(), |n| step(n.0)));
-                beside(
+                Cell::new(
                     published,
                     ours.runs.get(k).map(|run| step(run.steps_to_full_coverage)),
                 )
@@ -176,7 +210,7 @@ fn coverage_table(experiment: &ExperimentTables) -> (String, Vec<Row>) {
                     .map_or("-".to_owned(), |spread| format!("{spread:.0}"))
             });
             let of_run = |run: &RunSummary| run.steps_to_full_coverage.map(|n| n as f64);
-            beside(published, spread(&ours.runs, 0, of_run))
+            Cell::new(published, spread(&ours.runs, 0, of_run))
         },
     ));
     rows.push(row(experiment, "Runs that see all", |ours, published| {
@@ -192,7 +226,7 @@ fn coverage_table(experiment: &ExperimentTables) -> (String, Vec<Row>) {
             .iter()
             .filter(|run| run.steps_to_full_coverage.is_some())
             .count();
-        beside(published, Some(share(all, ours.runs.len())))
+        Cell::new(published, Some(share(all, ours.runs.len())))
     }));
     (title, rows)
 }
@@ -235,7 +269,7 @@ fn error_table(experiment: &ExperimentTables) -> (String, Vec<Row>) {
     let rows = lines.map(|(name, of_published, of_run)| {
         row(experiment, name, |ours, published| {
             let published = published.map(|p| format!("{:.3}", of_published(p)));
-            beside(published, spread(&ours.runs, 3, |run| Some(of_run(run))))
+            Cell::new(published, spread(&ours.runs, 3, |run| Some(of_run(run))))
         })
     });
     (title, rows.into())
@@ -274,7 +308,7 @@ fn further_table(experiment: &ExperimentTables) -> (String, Vec<Row>) {
     ];
     let rows = lines.map(|(name, digits, of_run)| {
         row(experiment, name, |ours, _| {
-            spread(&ours.runs, digits, of_run).unwrap_or_else(|| "-".to_owned())
+            Cell::new(None, spread(&ours.runs, digits, of_run))
         })
     });
     (title, rows.into())

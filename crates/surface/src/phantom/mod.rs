@@ -16,10 +16,11 @@ use crate::{Mesh, SurfaceError, Topology};
 /// Lattice spacing of [`heart_phantom`] that gives several thousand vertices, in cm.
 pub const DEFAULT_PHANTOM_SPACING_CM: f64 = 0.4;
 
-/// Finer takes seconds and tells nothing more.
-const MIN_SPACING_CM: f64 = 0.2;
-/// Coarser loses the thinner vessels.
-const MAX_SPACING_CM: f64 = 0.6;
+/// Least lattice spacing of [`heart_phantom`], in cm: finer takes seconds and tells nothing more.
+pub const MIN_PHANTOM_SPACING_CM: f64 = 0.2;
+
+/// Greatest lattice spacing of [`heart_phantom`], in cm: coarser loses the thinner vessels.
+pub const MAX_PHANTOM_SPACING_CM: f64 = 0.6;
 
 /// Edges shorter than this share of the spacing are collapsed.
 const SHORTEST_EDGE: f64 = 0.45;
@@ -33,10 +34,10 @@ const HIGH_CM: [f64; 3] = [15.0, 6.0, 15.0];
 /// spacing of the lattice that it is sampled on.
 ///
 /// # Errors
-/// A spacing that is not between 0.2 and 0.6 cm.
+/// A spacing that is not between [`MIN_PHANTOM_SPACING_CM`] and [`MAX_PHANTOM_SPACING_CM`].
 pub fn heart_phantom(spacing_cm: f64) -> Result<Mesh, SurfaceError> {
-    if !(MIN_SPACING_CM..=MAX_SPACING_CM).contains(&spacing_cm) {
-        let (min_cm, max_cm) = (MIN_SPACING_CM, MAX_SPACING_CM);
+    if !(MIN_PHANTOM_SPACING_CM..=MAX_PHANTOM_SPACING_CM).contains(&spacing_cm) {
+        let (min_cm, max_cm) = (MIN_PHANTOM_SPACING_CM, MAX_PHANTOM_SPACING_CM);
         return Err(SurfaceError::Spacing {
             spacing_cm,
             min_cm,

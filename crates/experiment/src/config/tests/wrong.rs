@@ -3,7 +3,8 @@
 use std::fs;
 
 use super::{Folder, ONE, loaded};
-use crate::config::{Config, FileKind, Published, check_file};
+use crate::config::{Config, Published, check_file};
+use crate::diagnostics::FileKind;
 use crate::scenario::tests::{HEART, POLYGON, assert_error};
 
 #[test]
@@ -156,7 +157,7 @@ fn a_file_is_known_by_its_keys() {
         ("config.toml", FileKind::Configuration),
         ("published.toml", FileKind::Published),
     ] {
-        assert_eq!(check_file(&folder.path(name)).unwrap(), kind, "{name}");
+        assert_eq!(check_file(&folder.path(name)).unwrap().kind, kind, "{name}");
     }
     fs::write(folder.path("other.toml"), "colour = 3\n").unwrap();
     let error = check_file(&folder.path("other.toml")).unwrap_err();

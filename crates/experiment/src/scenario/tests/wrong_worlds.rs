@@ -1,5 +1,7 @@
 //! What is said about values that do not go together, and where the caret points.
 
+use adslam_surface::{MAX_PHANTOM_SPACING_CM, MIN_PHANTOM_SPACING_CM};
+
 use super::{HEART, POLYGON, assert_error, parsed, polygon_with, refused};
 
 /// The polygon's features as they stand in its file.
@@ -78,12 +80,21 @@ fn features() {
         "3",
         "from 4 to 2000",
     );
-    assert_error(
-        heart("features = 50", "spacing_cm = 1e-5"),
-        "no sensible distance",
-        "1e-5",
-        "0.1 and 2 cm",
-    );
+    for (spacing, problem) in [
+        ("1e-5", "0.00001 cm"),
+        ("0.199", "0.199 cm"),
+        ("0.61", "0.61 cm"),
+    ] {
+        assert_error(
+            heart("features = 50", &format!("spacing_cm = {spacing}")),
+            &format!("{problem} is no sensible distance"),
+            spacing,
+            &format!("between {MIN_PHANTOM_SPACING_CM} and {MAX_PHANTOM_SPACING_CM} cm"),
+        );
+    }
+    for spacing in [MIN_PHANTOM_SPACING_CM, MAX_PHANTOM_SPACING_CM] {
+        heart("features = 50", &format!("spacing_cm = {spacing}")).unwrap();
+    }
     assert_error(
         heart("anchor = 0", "anchor = 50"),
         "no feature 50",

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::ops::Deref;
 
+use adslam_surface::{MAX_PHANTOM_SPACING_CM, MIN_PHANTOM_SPACING_CM};
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 
 use super::ValueError;
@@ -109,12 +110,12 @@ number!(
     |value| (0.5..=100.0).contains(&value)
 );
 number!(
-    /// Distance between the vertices of the heart phantom: 0.1 to 2 cm. Finer meshes take minutes,
-    /// coarser ones lose the shape.
+    /// Distance between the vertices of the heart phantom, within what
+    /// [`heart_phantom`](adslam_surface::heart_phantom) takes.
     Spacing,
-    "a distance between 0.1 and 2 cm, such as 0.3",
+    "a distance between 0.2 and 0.6 cm, such as 0.4",
     "cm is no sensible distance between vertices",
-    |value| (0.1..=2.0).contains(&value)
+    |value| (MIN_PHANTOM_SPACING_CM..=MAX_PHANTOM_SPACING_CM).contains(&value)
 );
 
 impl Finite {

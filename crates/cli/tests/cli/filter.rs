@@ -1,0 +1,118 @@
+//! `adslam filter`
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::support::{Place, lines, log, repository};
+
+fn estimates(place: &Place, name: &str) -> Vec<Value> {
+    let text = place.read(name);
+    text.lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect()
+}
+
+/// The reference of the format shows a log that can be filtered as it stands.
+#[test]
+fn the_log_in_the_documentation() {
+    let document = fs::read_to_string(repository("docs/log.md")).unwrap();
+    let example = document.split("```jsonl\n").nth(1).unwrap();
+    let example = example.split("```").next().unwrap();
+    let place = Place::new(&[("log.jsonl", example)]);
+    let said = place.succeeds("filter log.jsonl --out new/folder/estimates.jsonl");
+    assert!(
+        said.out.starts_with("filtered 2 steps with 2 features"),
+        "{said:?}"
+    );
+    let lines = estimates(&place, "new/folder/estimates.jsonl");
+    assert_eq!(lines.len(), 2);
+    for (line, n) in lines.iter().zip(2..) {
+        assert_eq!(line["step"], n);
+        let mut keys: Vec<&str> = line.as_object().unwrap().keys().map(|key| &**key).collect();
+        keys.sort_unstable();
+        let expected = [
+            "covariance_diagonal",
+            "features",
+            "pose",
+            "pose_covariance",
+            "step",
+            "trace",
+        ];
+        assert_eq!(keys, expected);
+        let length = |key: &str| line[key].as_array().unwrap().len();
+        let lengths = ["pose", "pose_covariance", "features", "covariance_diagonal"].map(length);
+        assert_eq!(lengths, [6, 6, 2, 12]);
+        let variances = line["covariance_diagonal"].as_array().unwrap();
+        let sum: f64 = variances.iter().map(|v| v.as_f64().unwrap()).sum();
+        assert!((sum / line["trace"].as_f64().unwrap() - 1.0).abs() < 1e-14);
+        for (key, _) in document_keys(&document, "## Estimates") {
+            assert!(line.get(&key).is_some(), "{key} is documented");
+        }
+    }
+}
+
+/// The keys in the table below a heading.
+fn document_keys(document: &str, heading: &str) -> Vec<(String, String)> {
+    let section = document.split(heading).nth(1).unwrap();
+    let section = section.split("\n## ").next().unwrap();
+    let rows = section.lines().filter_map(|line| line.strip_prefix("| `"));
+    let keys: Vec<_> = rows
+        .map(|row| {
+            row.split_once('`')
+                .map(|(k, r)| (k.to_owned(), r.to_owned()))
+                .unwrap()
+        })
+        .collect();
+    assert!(keys.len() > 4);
+    keys
+}
+
+/// Every key of a header is in the reference, and the other way round.
+#[test]
+fn the_documented_keys_of_the_header() {
+    let document = fs::read_to_string(repository("docs/log.md")).unwrap();
+    let mut documented: Vec<String> = document_keys(&document, "## Header")
+        .into_iter()
+        .map(|(key, _)| key)
+        .collect();
+    let mut written = Vec::new();
+    for (key, value) in log()[0].as_object().unwrap() {
+        match value.as_object() {
+            Some(part) => written.extend(part.keys().map(|inner| format!("{key}.{inner}"))),
+            None => written.push(key.clone()),
+        }
+    }
+    documented.sort();
+    written.sort();
+    assert_eq!(documented, written);
+}
+
+#[test]
+fn blank_lines_and_line_ends_do_not_matter() {
+    let text = lines(&log());
+    let windows = text.replace('\n', "\r\n\r\n");
+    let place = Place::new(&[("log.jsonl", &text), ("windows.jsonl", windows.trim_end())]);
+    place.succeeds("filter log.jsonl --out estimates.jsonl");
+    place.succeeds("filter windows.jsonl --out other.jsonl");
+    assert_eq!(place.read("estimates.jsonl"), place.read("other.jsonl"));
+}
+
+#[test]
+fn keep_complete_keeps_what_is_before_a_broken_line() {
+    let whole = lines(&log());
+    let broken = format!("{whole}{{\"step\":6,\"control\":{{\"rot");
+    let place = Place::new(&[("whole.jsonl", &whole), ("broken.jsonl", &broken)]);
+    place.succeeds("filter whole.jsonl --out whole-estimates.jsonl");
+    let said = place.succeeds("filter broken.jsonl --out estimates.jsonl --keep-complete");
+    for word in [
+        "warning: broken.jsonl: line 6 ends in the middle",
+        "kept the 4 steps before",
+    ] {
+        assert!(said.err.contains(word), "{said:?}");
+    }
+    assert_eq!(
+        place.read("whole-estimates.jsonl"),
+        place.read("estimates.jsonl")
+    );
+}

@@ -1,0 +1,89 @@
+//! Ctrl-C.
+
+use std::fs;
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use super::support::{Place, polygon};
+use super::tables::config;
+
+const INTERRUPTED: i32 = 130;
+/// Far more than a step takes, far less than the work.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// Starts the command and waits until it has begun to write into `out`.
+fn start(place: &Place, arguments: &str, out: &str) -> Child {
+    let child = Command::new(env!("CARGO_BIN_EXE_adslam"))
+        .args(arguments.split_whitespace())
+        .current_dir(place.path(""))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let begun = || fs::read_dir(place.path(out)).is_ok_and(|mut entries| entries.next().is_some());
+    let start = Instant::now();
+    while !begun() {
+        assert!(
+            start.elapsed() < Duration::from_secs(30),
+            "{arguments} does not begin"
+        );
+        sleep(Duration::from_millis(20));
+    }
+    child
+}
+
+/// Presses Ctrl-C; returns what was said.
+fn interrupt(child: Child) -> String {
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+    let start = Instant::now();
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(INTERRUPTED), "{said}");
+    assert!(start.elapsed() < PATIENCE, "{:?}", start.elapsed());
+    said
+}
+
+#[test]
+fn tables_keep_the_finished_runs() {
+    let place = Place::new(&[
+        ("polygon.toml", &polygon(&[])),
+        ("config.toml", &config(100_000, &["predetermined"])),
+    ]);
+    let child = start(&place, "tables config.toml --out tables", "tables");
+    sleep(Duration::from_millis(500));
+    let said = interrupt(child);
+    assert!(said.contains("interrupted"), "{said}");
+    let json = place.json("tables/tables.json");
+    assert_eq!(json["complete"], false);
+    let runs = &json["scenarios"]["polygon"]["planners"]["predetermined"];
+    let finished = runs.as_array().unwrap().len();
+    assert!((1..100_000).contains(&finished), "{finished}");
+    assert!(place.read("tables/tables.md").contains("Incomplete"));
+    assert_eq!(
+        fs::read_dir(place.path("tables")).unwrap().count(),
+        2,
+        "no litter"
+    );
+}
+
+#[test]
+fn an_unfinished_run_writes_nothing() {
+    let long = polygon(&[("steps = 5", "steps = 1000000")]);
+    let place = Place::new(&[("polygon.toml", &long)]);
+    let child = start(
+        &place,
+        "run polygon.toml --planner combined --out run",
+        "run",
+    );
+    let said = interrupt(child);
+    assert!(said.contains("interrupted"), "{said}");
+    assert_eq!(
+        fs::read_dir(place.path("run")).unwrap().count(),
+        0,
+        "no litter"
+    );
+}

@@ -1,0 +1,22 @@
+//! The command `adslam` as its users meet it: what it writes, what it says, and how it ends.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a helper that fails is a test that fails"
+)]
+
+mod bad_logs;
+mod bad_meshes;
+mod bad_output;
+mod bad_scenarios;
+mod bad_tables;
+mod check;
+mod failures;
+mod filter;
+mod help;
+#[cfg(unix)]
+mod interrupt;
+mod run;
+mod support;
+mod tables;

@@ -1,0 +1,81 @@
+//! What kind of file a TOML file is.
+
+use std::fmt;
+
+use super::{Document, InputError};
+
+/// The kinds of TOML files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileKind {
+    /// A scenario: what the world is.
+    Scenario,
+    /// A configuration: what is run.
+    Configuration,
+    /// Published results.
+    Published,
+}
+
+impl fmt::Display for FileKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Scenario => "scenario",
+            Self::Configuration => "configuration",
+            Self::Published => "file of published tables",
+        })
+    }
+}
+
+impl FileKind {
+    /// Keys of the root that only this kind has.
+    const fn telling_keys(self) -> &'static [&'static str] {
+        match self {
+            Self::Scenario => &[
+                "object",
+                "noise",
+                "sensor",
+                "robot",
+                "viewpoints",
+                "planners",
+                "motion",
+                "steps",
+            ],
+            Self::Configuration => &["experiments", "runs", "first_seed"],
+            Self::Published => &["tables"],
+        }
+    }
+
+    /// The kind that most of the document's keys tell of; none where no key tells.
+    pub(crate) fn of(document: &Document) -> Option<Self> {
+        let keys = document.keys("");
+        let told = |kind: &Self| {
+            let telling = kind.telling_keys();
+            keys.iter()
+                .filter(|key| telling.contains(&key.as_str()))
+                .count()
+        };
+        [Self::Scenario, Self::Published, Self::Configuration]
+            .into_iter()
+            .filter(|kind| told(kind) > 0)
+            .max_by_key(told)
+    }
+
+    /// Refuses a document that is plainly of another kind, in better words than by its first key
+    /// that does not belong here.
+    pub(crate) fn expect(self, document: &Document) -> Result<(), InputError> {
+        let Some(found) = Self::of(document).filter(|found| *found != self) else {
+            return Ok(());
+        };
+        let path = document.path();
+        let message = format!("{} is a {found}, and a {self} is needed", path.display());
+        let help = match (self, found) {
+            (Self::Scenario, Self::Configuration) => {
+                "`adslam tables` runs a configuration; or give one of the scenarios that it names"
+            }
+            (Self::Configuration, Self::Scenario) => {
+                "`adslam run` runs a scenario; or name it in a configuration, under [[experiments]]"
+            }
+            _ => "docs/scenario.md says what belongs into scenarios and configurations",
+        };
+        Err(InputError::about_file(path, message).with_help(help))
+    }
+}

@@ -1,0 +1,182 @@
+//! What is recorded against the run itself, and files that cannot be used.
+
+use std::path::Path;
+
+use nalgebra::{Point3, Vector3};
+use proptest::prelude::*;
+
+use super::*;
+use crate::ExperimentError;
+use crate::run::{Interrupt, Observer, Setup, StepView, simulate};
+use crate::scenario::Scenario;
+
+fn setup(name: &str, steps: usize) -> Setup {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../scenarios/{name}.toml"));
+    let mut setup = Setup::new(&Scenario::load(&file).unwrap()).unwrap();
+    setup.steps = steps;
+    setup
+}
+
+fn record(setup: &Setup, planner: PlannerName) -> RunHistory {
+    let mut recorder = HistoryRecorder::new(setup, planner, 1);
+    simulate(setup, planner, 1, &Interrupt::new(), &mut recorder).unwrap();
+    recorder.into_history()
+}
+
+/// Compares the history with what the run shows, step by step.
+struct Compare<'a>(HistoryRecorder<'a>);
+
+impl Observer for Compare<'_> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+        self.0.step(view)?;
+        let history = self.0.history();
+        let index = view.step - 1;
+        let step = &history.steps[index];
+        assert!((step.true_pose().minus(view.pose)).amax() < 1e-5);
+        assert!((step.estimate().minus(&view.belief.state.pose)).amax() < 1e-5);
+        for (a, b) in step.true_features().iter().zip(view.features) {
+            assert!((a - b).amax() < 1e-5);
+        }
+        for i in 0..history.feature_count() {
+            let exact = view.belief.covariance.feature(adslam_models::FeatureId(i));
+            let stored = step.feature_covariance(i).unwrap();
+            assert!((stored - exact).amax() <= exact.amax() * 1e-3);
+        }
+        let candidates = history.candidates(index);
+        assert_eq!(candidates.len(), view.scores.len());
+        for score in view.scores {
+            let stored = candidates.iter().find(|c| c.action == score.index).unwrap();
+            assert!(stored.pose.minus(&score.pose).amax() < 1e-4);
+            assert!((stored.trace - score.trace).abs() <= 1e-6 * score.trace);
+        }
+        if let (Some((decision, _)), Some(stored)) = (view.decision, &step.decision) {
+            assert_eq!(stored.goal, decision.goal.map(|(place, _)| place));
+            assert_eq!(
+                stored.predicted_trace.is_some(),
+                decision.predicted_trace.is_some()
+            );
+            assert_eq!(
+                stored.action.is_some(),
+                decision.scored > 0 || stored.goal.is_some()
+            );
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn every_planner_is_recorded_as_it_ran_and_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let setup = setup("polygon", 6);
+    for planner in PlannerName::ALL {
+        let mut compare = Compare(HistoryRecorder::new(&setup, planner, 3));
+        let outcome = simulate(&setup, planner, 3, &Interrupt::new(), &mut compare).unwrap();
+        let history = compare.0.into_history();
+        assert_eq!(history.steps.len(), 6);
+        assert_eq!(history.drawn, DrawnSurface::Features);
+        assert_eq!(history.drawn_vertices(3), history.steps[3].true_features());
+        let mean = history
+            .steps
+            .iter()
+            .map(|s| s.metrics.pose_error)
+            .sum::<f64>()
+            / 6.0;
+        assert!((mean - outcome.summary.pose_error_mean).abs() < 1e-5);
+        history.to_file(folder.path()).unwrap().commit().unwrap();
+        assert_eq!(RunHistory::load(folder.path()).unwrap(), history);
+    }
+}
+
+#[test]
+fn the_drawn_mesh_moves_as_the_scenario_says() {
+    for name in ["heart", "rotating"] {
+        let mut setup = setup(name, 9);
+        if name == "rotating" {
+            // Any mesh but the features' own surface.
+            setup.drawn.vertices.push(Point3::new(0.3, -0.4, 0.5));
+        }
+        let history = record(&setup, PlannerName::Predetermined);
+        let motion = &setup.world.motion;
+        let mut base = Vector3::zeros();
+        for n in 1..=9 {
+            let drawn = history.drawn_vertices(n - 1);
+            assert_eq!(drawn.len(), setup.drawn.vertices.len());
+            for (p, rest) in drawn.iter().zip(&setup.drawn.vertices) {
+                let expected = rest + base + motion.offset(rest, n);
+                assert!(
+                    (p - expected).amax() < 5e-4,
+                    "{name}, step {n}: {p} {expected}"
+                );
+            }
+            base += motion.translation_step(n);
+        }
+        assert!(history.drawn_vertices(9).is_empty() && history.candidates(9).is_empty());
+    }
+}
+
+#[test]
+fn files_that_cannot_be_used_say_why() {
+    let good = serde_json::to_value(record(&setup("polygon", 3), PlannerName::Global)).unwrap();
+    let path = Path::new("run/history.json");
+    let reason = |text: &str| {
+        let error = RunHistory::parse(path, text).unwrap_err();
+        assert!(error.remedy().is_some());
+        error.to_string()
+    };
+    let text = good.to_string();
+    assert!(RunHistory::parse(path, &text).is_ok());
+    assert!(reason(&text[..text.len() / 2]).contains("ends in the middle"));
+    assert!(reason("{}").contains("is not the history of a run"));
+    assert!(reason("[1, 2]").contains("cannot be read"));
+    let changed = |pointer: &str, value: serde_json::Value| {
+        let mut json = good.clone();
+        *json.pointer_mut(pointer).unwrap() = value;
+        reason(&json.to_string())
+    };
+    use serde_json::json;
+    assert!(changed("/version", json!(2)).contains("version 2"));
+    assert!(changed("/planner", json!("psychic")).contains("cannot be read"));
+    assert!(changed("/steps", json!([])).contains("no steps"));
+    assert!(changed("/steps/1/features", json!([])).contains("step 2: 0 features"));
+    assert!(changed("/steps/2/visible", json!([14])).contains("number 14, beyond 14"));
+    assert!(changed("/steps/1/decision", json!(null)).contains("step 2: every step"));
+    assert!(changed("/steps/1/decision/goal", json!(999)).contains("the goal has number 999"));
+    assert!(changed("/steps/1/decision/scored", json!([1])).contains("make no list"));
+    assert!(changed("/steps/1/decision/scored", json!([1, 1])).contains("0 traces"));
+    let endless = json!([0, u64::MAX]);
+    assert!(changed("/steps/1/decision/scored", endless).contains("make no list"));
+    assert!(changed("/topology/0/0", json!(77)).contains("a face has number 77"));
+    let missing = RunHistory::load(Path::new("/nowhere/at/all")).unwrap_err();
+    assert!(missing.message().contains("cannot read"), "{missing}");
+}
+
+#[test]
+fn rounding_keeps_what_it_says() {
+    assert_eq!(compact::decimals(-0.000_001, 5).to_string(), "0");
+    assert_eq!(compact::digits(123.456_789, 4), 123.5);
+    assert_eq!(compact::digits(0.000_123_456, 2), 0.000_12);
+    assert_eq!(compact::digits(0.0, 3), 0.0);
+    assert_eq!(compact::decimals(1e300, 5), 1e300);
+    assert!(compact::digits(f64::MIN_POSITIVE, 3) >= 0.0);
+    assert!(compact::digits(f64::NAN, 3).is_nan());
+}
+
+proptest! {
+    #[test]
+    fn runs_give_the_list_back(set in prop::collection::btree_set(0usize..200, 0..150)) {
+        #[derive(Serialize, Deserialize)]
+        struct Holder(#[serde(with = "compact::ranges")] Vec<usize>);
+        let list: Vec<usize> = set.into_iter().collect();
+        let json = serde_json::to_string(&Holder(list.clone())).unwrap();
+        prop_assert_eq!(serde_json::from_str::<Holder>(&json).unwrap().0, list);
+    }
+
+    #[test]
+    fn no_text_panics(cut in 0usize..4000, byte in any::<u8>()) {
+        let mut text = r#"{"format":"adslam-history","version":1,"scenario":"x","planner":"local",
+            "seed":1,"steps":[{"pose":[0,0,0,0,0,0]}],"drawn":"features"}"#.to_owned().into_bytes();
+        let at = cut % text.len();
+        text[at] = byte;
+        let _ = RunHistory::parse(Path::new("x"), &String::from_utf8_lossy(&text));
+    }
+}

@@ -1,0 +1,153 @@
+//! The object as it is before it moves, and what is said if it cannot be built.
+
+use adslam_surface::{Mesh, SurfaceError, Topology, heart_phantom, pick_features};
+use nalgebra::Point3;
+
+use crate::diagnostics::InputError;
+use crate::scenario::{self, Object, Scenario, values};
+
+/// Features, the surface over them, and the surface that is drawn.
+pub(super) struct RestObject {
+    pub(super) features: Vec<Point3<f64>>,
+    pub(super) topology: Topology,
+    pub(super) drawn: Mesh,
+}
+
+impl RestObject {
+    pub(super) fn build(scenario: &Scenario) -> Result<Self, InputError> {
+        let blame = |key: &'static str| move |error| blamed(scenario, key, &error);
+        match &scenario.object {
+            Object::Points(points) => {
+                let features: Vec<Point3<f64>> =
+                    points.positions_cm.iter().map(|p| p.point()).collect();
+                let topology = match &points.faces {
+                    Some(faces) => {
+                        let faces: Vec<[usize; 3]> =
+                            faces.iter().map(|face| face.map(|n| n.get())).collect();
+                        Topology::from_faces(&features, &faces)
+                            .map_err(blame("object.points.faces"))?
+                    }
+                    None => Topology::convex_hull(&features)
+                        .map_err(blame("object.points.positions_cm"))?,
+                };
+                let faces = topology.faces().to_vec();
+                let drawn = Mesh {
+                    vertices: features.clone(),
+                    faces,
+                };
+                Ok(Self {
+                    features,
+                    topology,
+                    drawn,
+                })
+            }
+            Object::Mesh(mesh) => {
+                refuse_missing(scenario, mesh)?;
+                let read = Mesh::read_stl(&mesh.file).map_err(blame("object.mesh.file"))?;
+                let placed = read.scaled_and_moved(mesh.unit.in_cm(), *mesh.offset_cm);
+                Self::picked(placed, mesh.features, mesh.feature_seed)
+                    .map_err(blame("object.mesh.features"))
+            }
+            Object::Phantom(phantom) => {
+                let generated = heart_phantom(*phantom.spacing_cm)
+                    .map_err(blame("object.phantom.spacing_cm"))?;
+                Self::picked(generated, phantom.features, phantom.feature_seed)
+                    .map_err(blame("object.phantom.features"))
+            }
+        }
+    }
+
+    fn picked(
+        drawn: Mesh,
+        count: values::FeatureCount,
+        seed: values::Seed,
+    ) -> Result<Self, SurfaceError> {
+        let picked = pick_features(&drawn, count.get(), seed.as_u64())?;
+        let features: Vec<Point3<f64>> = picked.iter().map(|&i| drawn.vertices[i]).collect();
+        let topology = Topology::convex_hull(&features)?;
+        Ok(Self {
+            features,
+            topology,
+            drawn,
+        })
+    }
+}
+
+fn refuse_missing(scenario: &Scenario, mesh: &scenario::Mesh) -> Result<(), InputError> {
+    if mesh.file.exists() {
+        return Ok(());
+    }
+    let message = format!("there is no file {}", mesh.file.display());
+    Err(if scenario.mesh_is_given {
+        InputError::about_file(&mesh.file, message)
+            .with_help("--mesh takes the path of an STL file, from the current folder")
+    } else {
+        scenario
+            .error_at("object.mesh.file", message)
+            .with_help("the path counts from the scenario's folder")
+    })
+}
+
+/// An error of the surface as one of the input: at `key` of the scenario, or about the mesh file
+/// that was given beside it.
+///
+/// The messages of surfaces end with the remedy, after a semicolon or else a colon.
+pub(super) fn blamed(scenario: &Scenario, key: &str, error: &SurfaceError) -> InputError {
+    let text = error.to_string();
+    let (message, remedy) = text
+        .rsplit_once("; ")
+        .or_else(|| text.rsplit_once(": "))
+        .unwrap_or((&text, "docs/scenario.md says what an object needs"));
+    let error = match &scenario.object {
+        Object::Mesh(mesh) if scenario.mesh_is_given => {
+            let file = mesh.file.display().to_string();
+            let message = if message.contains(&file) {
+                message.to_owned()
+            } else {
+                format!("mesh file {file}: {message}")
+            };
+            InputError::about_file(&mesh.file, message)
+        }
+        _ => scenario.error_at(key, message),
+    };
+    error.with_help(remedy)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    const POLYGON: &str = include_str!("../../../../scenarios/polygon.toml");
+
+    #[test]
+    fn messages_of_surfaces_are_parted_from_their_remedies() {
+        let scenario = Scenario::parse(POLYGON, Path::new("polygon.toml")).unwrap();
+        let given = scenario.clone().with_mesh("heart.stl");
+        for (error, message, remedy) in [
+            (
+                SurfaceError::Flat { count: 5 },
+                "all 5 points lie on one plane",
+                "move at least one of them off it",
+            ),
+            (
+                SurfaceError::TooFewFeatures {
+                    wanted: 50,
+                    found: 4,
+                    vertices: 8,
+                },
+                "no 50 of the mesh's 8 vertices are found in convex position with this seed: 4 at \
+                 most",
+                "ask for fewer features or use a finer mesh",
+            ),
+        ] {
+            let at = blamed(&scenario, "object", &error);
+            assert_eq!((at.message(), at.remedy()), (message, Some(remedy)));
+            assert!(at.span().is_some());
+            let about = blamed(&given, "object", &error);
+            assert_eq!(about.message(), format!("mesh file heart.stl: {message}"));
+            assert_eq!((about.remedy(), about.span()), (Some(remedy), None));
+        }
+    }
+}
