@@ -182,31 +182,3 @@ fn a_deadline_leaves_the_best_action_so_far() {
         observer.0
     );
 }
-
-#[test]
-fn features_that_no_viewpoint_sees_are_named() {
-    // The only viewpoint is below the polygon, out of sight of its upper half.
-    let below = "[viewpoints.fixed]\npositions_cm = [[1.5, 0.0, -1.5]]\n";
-    let path = adslam_tests::repository("scenarios/polygon.toml");
-    let text = std::fs::read_to_string(&path).unwrap();
-    let (before, after) = text.split_once("[viewpoints.sampled]").unwrap();
-    let (_, after) = after.split_once("[planners.predetermined]").unwrap();
-    let text = format!("{before}{below}[planners.predetermined]{after}");
-    let scenario = adslam_experiment::scenario::Scenario::parse(&text, &path).unwrap();
-    let setup = Setup::new(&scenario).unwrap();
-    let run = simulate(
-        &setup,
-        PlannerName::Global,
-        1,
-        &Interrupt::new(),
-        &mut NoObserver,
-    )
-    .unwrap();
-    let [warning] = &run.warnings[..] else {
-        panic!("{:?}", run.warnings)
-    };
-    assert!(
-        warning.contains("no viewpoint sees features 7, 8, 9, 10, 11, 12, 13;"),
-        "{warning}"
-    );
-}

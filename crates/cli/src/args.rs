@@ -17,10 +17,19 @@ pub enum Command {
         summary.json   the run in a few numbers\n  \
         steps.csv      a row a step, units in the header\n  \
         features.csv   the features at the end\n  \
-        truth.tum, estimate.tum   trajectories for the evo tools\n\n\
+        truth.tum, estimate.tum   trajectories for the evo tools\n  \
+        history.json   everything that adslam replay shows\n  \
+        replay.html    that, as a page to open in a browser, with --html\n\n\
         Example:\n  \
         adslam run scenarios/heart.toml --planner local --seed 3 --out results/heart-local-3")]
     Run(RunArgs),
+    /// Make a page of one or two runs to turn around and play in a browser
+    #[command(
+        after_help = "Takes folders that adslam run wrote. The page is one file and opens offline; \
+        two runs stay in step. docs/replay.md shows what is on it.\n\n\
+        Example:\n  adslam replay results/global results/combined --out results/replay.html"
+    )]
+    Replay(ReplayArgs),
     /// Run the estimator over a recorded log
     #[command(
         after_help = "The log is JSON lines, a header and a line a step; docs/log.md is its \
@@ -60,6 +69,20 @@ pub struct RunArgs {
     /// An STL file to take for the object in place of the scenario's
     #[arg(long, value_name = "FILE")]
     pub mesh: Option<PathBuf>,
+    /// Write replay.html too, a page to open in a browser
+    #[arg(long)]
+    pub html: bool,
+}
+
+/// `adslam replay`
+#[derive(Debug, Args)]
+pub struct ReplayArgs {
+    /// Folders of one or two runs
+    #[arg(required = true, num_args = 1..=2, value_name = "RUN_DIR")]
+    pub runs: Vec<PathBuf>,
+    /// The page to write
+    #[arg(long, default_value = "replay.html", value_name = "FILE")]
+    pub out: PathBuf,
 }
 
 /// `adslam filter`
@@ -102,6 +125,7 @@ impl Command {
     pub fn execute(&self, interrupt: &Interrupt) -> Result<(), ExperimentError> {
         match self {
             Self::Run(args) => commands::run(args, interrupt),
+            Self::Replay(args) => commands::replay(args),
             Self::Filter(args) => commands::filter(args, interrupt),
             Self::Tables(args) => commands::tables(args, interrupt),
             Self::Check { files } => commands::check(files),

@@ -2,10 +2,12 @@
 
 mod check;
 mod filter;
+mod replay;
 mod run;
 mod tables;
 
 pub use check::check;
 pub use filter::filter;
+pub use replay::replay;
 pub use run::run;
 pub use tables::tables;

@@ -21,7 +21,7 @@ pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), ExperimentError>
     let setup = Setup::new(&scenario)?;
     warn(&setup.warnings);
     prepare_folder(&args.out)?;
-    let recorder = RunRecorder::create(&args.out, setup.world.rest.len())?;
+    let recorder = RunRecorder::create(&args.out, &setup, args.planner, args.seed)?;
     let mut observer = Shown {
         recorder,
         bar: progress::bar(setup.steps, "steps"),
@@ -30,7 +30,12 @@ pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), ExperimentError>
     observer.bar.finish_and_clear();
     let outcome = result?;
     warn(&outcome.warnings);
-    let files = observer.recorder.commit(&outcome.summary)?;
+    let page = args.out.join("replay.html");
+    if args.html {
+        adslam_replay::write_html(&[observer.recorder.history()], &page)?;
+    }
+    let mut files = observer.recorder.commit(&outcome.summary)?;
+    files.extend(args.html.then_some(page));
     let summary = &outcome.summary;
     let coverage = summary
         .steps_to_full_coverage
@@ -60,12 +65,12 @@ pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), ExperimentError>
 }
 
 /// Writes the run down and shows how far it is.
-struct Shown {
-    recorder: RunRecorder,
+struct Shown<'a> {
+    recorder: RunRecorder<'a>,
     bar: ProgressBar,
 }
 
-impl Observer for Shown {
+impl Observer for Shown<'_> {
     fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
         self.bar.set_position(view.step as u64);
         self.recorder.step(view)

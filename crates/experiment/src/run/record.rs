@@ -1,15 +1,18 @@
-//! A run written down: steps.csv, features.csv, the trajectories and summary.json.
+//! A run written down: steps.csv, features.csv, the trajectories, its history and summary.json.
 
 use std::path::{Path, PathBuf};
 
-use super::{Observer, StepView};
+use super::{HistoryRecorder, Observer, RunHistory, Setup, StepView};
 use crate::ExperimentError;
 use crate::metrics::RunSummary;
 use crate::output::{AtomicFile, FeaturesFile, LastFeatures, StepsFile, TumFile};
+use crate::scenario::PlannerName;
 
 /// Writes a run into a folder. The files appear when the run has finished, all complete.
 #[derive(Debug)]
-pub struct RunRecorder {
+pub struct RunRecorder<'a> {
+    folder: PathBuf,
+    history: HistoryRecorder<'a>,
     summary: AtomicFile,
     steps: StepsFile,
     features: FeaturesFile,
@@ -18,13 +21,21 @@ pub struct RunRecorder {
     last: LastFeatures,
 }
 
-impl RunRecorder {
-    /// Begins to write into `folder`, which must exist.
+impl<'a> RunRecorder<'a> {
+    /// Begins to write the run of `planner` with `seed` into `folder`, which must exist.
     ///
     /// # Errors
     /// [`ExperimentError::Output`].
-    pub fn create(folder: &Path, feature_count: usize) -> Result<Self, ExperimentError> {
+    pub fn create(
+        folder: &Path,
+        setup: &'a Setup,
+        planner: PlannerName,
+        seed: u64,
+    ) -> Result<Self, ExperimentError> {
+        let feature_count = setup.world.rest.len();
         Ok(Self {
+            folder: folder.to_owned(),
+            history: HistoryRecorder::new(setup, planner, seed),
             summary: AtomicFile::create(&folder.join("summary.json"))?,
             steps: StepsFile::create(&folder.join("steps.csv"), feature_count)?,
             features: FeaturesFile::create(&folder.join("features.csv"), feature_count)?,
@@ -32,6 +43,12 @@ impl RunRecorder {
             estimate: TumFile::create(&folder.join("estimate.tum"))?,
             last: LastFeatures::default(),
         })
+    }
+
+    /// The run so far.
+    #[must_use]
+    pub const fn history(&self) -> &RunHistory {
+        self.history.history()
     }
 
     /// Completes all files and returns their paths. summary.json comes last: where it is, the others
@@ -46,6 +63,7 @@ impl RunRecorder {
             self.features.finish(&self.last)?,
             self.truth.finish(),
             self.estimate.finish(),
+            self.history.finish(&self.folder)?,
             self.summary,
         ];
         let paths = files.iter().map(|file| file.path().to_owned()).collect();
@@ -54,13 +72,13 @@ impl RunRecorder {
     }
 }
 
-impl Observer for RunRecorder {
+impl Observer for RunRecorder<'_> {
     fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
         self.steps.add(view)?;
         self.features.add(view);
         self.truth.add(view.step, view.pose)?;
         self.estimate.add(view.step, &view.belief.state.pose)?;
         self.last = LastFeatures::of(view);
-        Ok(())
+        self.history.step(view)
     }
 }

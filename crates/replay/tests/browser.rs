@@ -1,0 +1,88 @@
+//! The page in a real browser, driven by browser.mjs.
+//!
+//! Needs node and Chromium; where one is missing the test says so and passes, unless
+//! `ADSLAM_REQUIRE_BROWSER` is set. `ADSLAM_CHROMIUM` names a browser that is not on the path.
+
+mod common;
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use adslam_experiment::run::RunHistory;
+use adslam_experiment::scenario::PlannerName;
+use adslam_replay::write_html;
+use common::history;
+
+/// The first of these programs that is on the path.
+fn program(names: &[&str]) -> Option<PathBuf> {
+    let path = env::var_os("PATH")?;
+    names
+        .iter()
+        .flat_map(|name| env::split_paths(&path).map(move |folder| folder.join(name)))
+        .find(|program| program.is_file())
+}
+
+/// What has to be drawn at step 9.
+fn step_9(history: &RunHistory) -> serde_json::Value {
+    let vertices = history.drawn_vertices(8);
+    let vertices: Vec<f64> = vertices.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
+    // The decision of step 9 leads to step 10.
+    let candidates: Vec<[f64; 6]> = history
+        .candidates(9)
+        .iter()
+        .map(|candidate| {
+            let p = candidate.pose.position;
+            let ahead = candidate.pose.orientation.rotation() * nalgebra::Vector3::x();
+            [p.x, p.y, p.z, ahead.x, ahead.y, ahead.z]
+        })
+        .collect();
+    serde_json::json!({
+        "robot": history.steps[8].pose[3..],
+        "vertices": vertices,
+        "covariances": history.steps[8].feature_covariances,
+        "candidates": candidates,
+    })
+}
+
+#[test]
+fn pages_of_one_and_two_runs_work_in_a_browser() {
+    let chromium = env::var_os("ADSLAM_CHROMIUM")
+        .map(PathBuf::from)
+        .or_else(|| {
+            program(&[
+                "chromium",
+                "chromium-browser",
+                "google-chrome",
+                "google-chrome-stable",
+            ])
+        });
+    let (Some(node), Some(chromium)) = (program(&["node"]), chromium) else {
+        assert!(
+            env::var_os("ADSLAM_REQUIRE_BROWSER").is_none(),
+            "node or Chromium is missing"
+        );
+        println!("skipped: node or Chromium is missing (Debian: apt-get install nodejs chromium)");
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let mut combined = history("polygon", PlannerName::Combined, 40);
+    combined.scenario = "</script><b>polygon".to_owned();
+    let heart = history("heart", PlannerName::Global, 12);
+    let one = folder.path().join("one.html");
+    let two = folder.path().join("two.html");
+    write_html(&[&combined], &one).unwrap();
+    write_html(&[&heart, &combined], &two).unwrap();
+    let expected = folder.path().join("expected.json");
+    let numbers = serde_json::json!({ "one": step_9(&combined), "two": step_9(&heart) });
+    fs::write(&expected, numbers.to_string()).unwrap();
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/browser.mjs");
+    let output = Command::new(node)
+        .args([&script, &chromium, &one, &two, &expected])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    let complained = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}\n{complained}");
+}

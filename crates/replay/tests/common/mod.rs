@@ -1,0 +1,18 @@
+//! Short runs of the shipped scenarios.
+
+use std::path::Path;
+
+use adslam_experiment::run::{HistoryRecorder, Interrupt, RunHistory, Setup, simulate};
+use adslam_experiment::scenario::{PlannerName, Scenario};
+
+/// A run of a shipped scenario with seed 1, cut to `steps`.
+pub fn history(scenario: &str, planner: PlannerName, steps: usize) -> RunHistory {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    let scenario =
+        Scenario::load(&folder.join(format!("{scenario}.toml"))).expect("a shipped scenario");
+    let mut setup = Setup::new(&scenario).expect("an object that serves");
+    setup.steps = steps;
+    let mut recorder = HistoryRecorder::new(&setup, planner, 1);
+    simulate(&setup, planner, 1, &Interrupt::new(), &mut recorder).expect("a run");
+    recorder.into_history()
+}
