@@ -1,10 +1,16 @@
 //! Tasks of the project: `cargo xtask TASK`.
 
+mod environment;
+mod figures;
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use adslam_cli::{TablesArgs, exit_code, stop_on_ctrl_c, tables};
-use clap::{Parser, ValueEnum};
+use clap::Parser;
+
+use environment::Environment;
+use figures::FiguresArgs;
 
 #[derive(Debug, Parser)]
 #[command(name = "cargo xtask", about = "Tasks of the adslam project")]
@@ -24,24 +30,8 @@ enum Task {
         #[arg(long, value_name = "FILE")]
         mesh: Option<PathBuf>,
     },
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Environment {
-    Polygon,
-    Heart,
-    All,
-}
-
-impl Environment {
-    fn labels(self) -> Vec<String> {
-        let labels: &[&str] = match self {
-            Self::Polygon => &["polygon"],
-            Self::Heart => &["heart"],
-            Self::All => &[],
-        };
-        labels.iter().map(ToString::to_string).collect()
-    }
+    /// Draw Figures 1–5, and those that the paper lacks, from new runs, as SVG and PNG
+    ReproduceFigures(FiguresArgs),
 }
 
 fn main() -> ExitCode {
@@ -53,23 +43,22 @@ fn main() -> ExitCode {
             scenario,
             mesh,
         } => {
-            let config = workspace().join("configs/paper.toml");
-            let only = scenario.labels();
             let args = TablesArgs {
-                config,
+                config: paper(),
                 runs: Some(runs),
-                only,
+                only: scenario.labels(),
                 mesh,
                 out,
             };
             exit_code(tables(&args, interrupt))
         }
+        Task::ReproduceFigures(args) => figures::reproduce(&args, interrupt),
     }
 }
 
-/// The folder of the workspace, wherever the task is started from.
-fn workspace() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .parent()
-        .unwrap_or(Path::new("."))
+/// The configuration of the paper's experiments, wherever the task is started from.
+fn paper() -> PathBuf {
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
+    let workspace = workspace.unwrap_or(Path::new("."));
+    workspace.join("configs/paper.toml")
 }

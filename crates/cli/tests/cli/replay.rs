@@ -42,5 +42,8 @@ fn a_folder_without_a_run_is_refused() {
     std::fs::write(place.path("local/history.json"), cut).unwrap();
     place.refuses("replay local --out page.html", &["local/history.json"]);
     assert!(!place.path("page.html").exists());
-    place.refuses("replay local local local --out page.html", &["no more were expected"]);
+    place.refuses(
+        "replay local local local --out page.html",
+        &["no more were expected"],
+    );
 }

@@ -1,0 +1,36 @@
+//! The figures of the paper, and those that it lacks, drawn from recorded runs.
+//!
+//! Every function takes runs ([`RunHistory`](adslam_experiment::run::RunHistory)) or their
+//! summaries and returns a [`Figure`], which is an SVG document and can be turned into a PNG. The
+//! same runs give the same bytes on every machine: the font is part of the program. A method has
+//! the same colour in all figures, one that is told apart without colour vision.
+
+mod axis;
+mod boxes;
+mod chart;
+mod comparison;
+mod coverage;
+mod environments;
+mod error;
+mod estimates;
+mod figure;
+mod font;
+mod legend;
+mod methods;
+mod nees;
+mod pose_error;
+mod scene;
+mod shape;
+mod sheet;
+mod statistics;
+mod style;
+
+pub use boxes::boxes;
+pub use comparison::comparison;
+pub use coverage::coverage;
+pub use environments::environments;
+pub use error::{DrawingError, FigureError};
+pub use estimates::estimates;
+pub use figure::Figure;
+pub use nees::{CHI_SQUARED_6_BOUNDS, nees};
+pub use pose_error::pose_error;

@@ -1,0 +1,182 @@
+//! Every figure, drawn from short real runs.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
+
+use std::path::Path;
+
+use adslam_experiment::config::Config;
+use adslam_experiment::run::{HistoryRecorder, Interrupt, RunHistory, Setup, simulate};
+use adslam_experiment::scenario::{PlannerName, Scenario};
+use adslam_experiment::tables::{ExperimentTables, TablePlan, TablesOptions};
+use adslam_figures::{
+    Figure, boxes, comparison, coverage, environments, estimates, nees, pose_error,
+};
+
+fn file(name: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .join(name)
+}
+
+fn record(scenario: &str, steps: usize) -> Vec<RunHistory> {
+    let scenario = Scenario::load(&file(&format!("scenarios/{scenario}.toml"))).unwrap();
+    let mut setup = Setup::new(&scenario).unwrap();
+    setup.steps = steps;
+    let run = |planner| {
+        let mut recorder = HistoryRecorder::new(&setup, planner, 1);
+        simulate(&setup, planner, 1, &Interrupt::new(), &mut recorder).unwrap();
+        recorder.into_history()
+    };
+    PlannerName::ALL.into_iter().map(run).collect()
+}
+
+fn tables(runs: usize) -> ExperimentTables {
+    let config = Config::load(&file("configs/paper.toml")).unwrap();
+    let options = TablesOptions {
+        runs: Some(runs),
+        only: vec!["polygon".to_owned()],
+        mesh: None,
+    };
+    let mut config = config;
+    for plan in &mut config.experiments {
+        plan.planners
+            .retain(|planner| *planner != PlannerName::Local);
+    }
+    let plan = TablePlan::new(config, &options).unwrap();
+    plan.run(&Interrupt::new(), &|| ()).experiments.remove(0)
+}
+
+/// All figures of some histories, with the texts that each must have.
+fn all(histories: &[RunHistory]) -> Vec<(Figure, &'static [&'static str])> {
+    let runs: Vec<&RunHistory> = histories.iter().collect();
+    let space: &[&str] = &["x (cm)", "y (cm)", "z (cm)"];
+    vec![
+        (environments("environments", &runs).unwrap(), space),
+        (estimates("estimates", &runs).unwrap(), space),
+        (
+            comparison("comparison", &runs).unwrap(),
+            &["Step", "Pose error (cm, rad)", "Decision time (ms)"],
+        ),
+        (
+            coverage("coverage", &runs).unwrap(),
+            &[
+                "Step",
+                "Features seen (%)",
+                "Observed feature times (count)",
+            ],
+        ),
+        (
+            nees("nees", &runs).unwrap(),
+            &["Step", "Pose NEES (dimensionless)"],
+        ),
+        (
+            pose_error("pose-error", &runs).unwrap(),
+            &["Step", "yaw (rad)", "z (cm)"],
+        ),
+    ]
+}
+
+fn check(figure: &Figure, texts: &[&str]) {
+    let name = figure.name();
+    let document = roxmltree::Document::parse(figure.svg())
+        .unwrap_or_else(|error| panic!("{name} is not well-formed: {error}"));
+    let is_text = |node: &roxmltree::Node<'_, '_>| node.has_tag_name("text");
+    let found: Vec<&str> = document
+        .descendants()
+        .filter(is_text)
+        .filter_map(|node| node.text())
+        .collect();
+    for text in texts {
+        assert!(found.contains(text), "{name} lacks {text:?}: {found:?}");
+    }
+    assert!(!figure.svg().contains("NaN") && !figure.svg().contains("inf"));
+}
+
+#[test]
+fn every_figure_is_well_formed_and_labelled_with_units() {
+    for (scenario, steps) in [("polygon", 12), ("heart", 4)] {
+        let histories = record(scenario, steps);
+        for (figure, texts) in all(&histories) {
+            check(&figure, texts);
+            for method in ["Predetermined", "Local", "Global", "Combined"] {
+                let is_named = figure.svg().contains(method);
+                assert!(is_named || figure.name() == "environments");
+            }
+            let png = figure.png_scaled(0.5).unwrap();
+            assert!(png.starts_with(b"\x89PNG") && png.len() > 2000);
+        }
+    }
+}
+
+#[test]
+fn the_same_runs_in_any_order_give_the_same_bytes() {
+    let mut histories = record("polygon", 6);
+    let first = all(&histories);
+    histories.reverse();
+    for ((a, _), (b, _)) in first.iter().zip(all(&histories)) {
+        assert!(
+            a.name() == "environments" || a.svg() == b.svg(),
+            "{}",
+            a.name()
+        );
+    }
+    let again = record("polygon", 6);
+    let runs: Vec<&RunHistory> = again.iter().collect();
+    assert_eq!(estimates("estimates", &runs).unwrap(), first[1].0);
+}
+
+#[test]
+fn runs_that_hardly_began_are_drawn() {
+    let mut histories = record("polygon", 1);
+    for (figure, texts) in all(&histories) {
+        check(&figure, texts);
+    }
+    for history in &mut histories {
+        history.steps.clear();
+        history.scenario = "<a & b>\u{1}".to_owned();
+    }
+    for (figure, _) in all(&histories) {
+        check(&figure, &[]);
+        assert!(figure.png_scaled(0.3).is_ok());
+    }
+    for (figure, _) in all(&[]) {
+        check(&figure, &[]);
+    }
+    for method in record("polygon", 3) {
+        for (figure, texts) in all(&[method]) {
+            check(&figure, texts);
+        }
+    }
+}
+
+#[test]
+fn box_plots_have_a_panel_for_each_number() {
+    let mut tables = tables(3);
+    let figure = boxes("boxes", &tables).unwrap();
+    check(&figure, &["count", "steps", "cm, rad", "cm", "ms", "Comb."]);
+    assert!(figure.svg().contains("Pose NEES, mean"));
+    for planner in &mut tables.planners {
+        for run in &mut planner.runs {
+            run.steps_to_full_coverage = None;
+            run.pose_error_mean = f64::NAN;
+        }
+    }
+    check(&boxes("boxes", &tables).unwrap(), &["0 of 3"]);
+    tables.planners.iter_mut().for_each(|p| p.runs.clear());
+    check(&boxes("boxes", &tables).unwrap(), &[]);
+    tables.planners.clear();
+    check(&boxes("boxes", &tables).unwrap(), &[]);
+}
+
+#[test]
+fn both_files_are_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let histories = record("polygon", 3);
+    let runs: Vec<&RunHistory> = histories.iter().collect();
+    let figure = coverage("coverage", &runs).unwrap();
+    let [svg, png] = figure.write(folder.path()).unwrap();
+    assert_eq!(std::fs::read_to_string(svg).unwrap(), figure.svg());
+    assert_eq!(std::fs::read(png).unwrap(), figure.png().unwrap());
+    let error = figure.write(&folder.path().join("absent")).unwrap_err();
+    assert!(error.to_string().contains("coverage.svg"), "{error}");
+}
