@@ -1,6 +1,12 @@
 //! The local planner's decisions on whole runs against the plain way: each action's visible features
 //! one by one, and one dense update of the whole covariance for each.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a helper that fails is a test that fails"
+)]
+
 use adslam_estimator::{Belief, DirectTrace, PlannedMeasurement};
 use adslam_experiment::ExperimentError;
 use adslam_experiment::run::{Interrupt, Observer, Setup, StepView, simulate};

@@ -1,5 +1,11 @@
 //! The filter against estimates from an independent implementation of Algorithm 1.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a helper that fails is a test that fails"
+)]
+
 use std::fs::{self, File};
 use std::io::BufReader;
 

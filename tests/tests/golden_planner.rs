@@ -1,6 +1,12 @@
 //! Planning against numbers from an independent implementation: clear candidates, objectives, and what
 //! viewpoints see.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a helper that fails is a test that fails"
+)]
+
 use std::fs::{self, File};
 use std::io::BufReader;
 use std::sync::Arc;

@@ -1,5 +1,11 @@
 //! Whole runs: what must hold whatever the numbers are.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a helper that fails is a test that fails"
+)]
+
 use adslam_experiment::ExperimentError;
 use adslam_experiment::metrics::{DecisionTimes, RunSummary};
 use adslam_experiment::run::{Interrupt, NoObserver, Observer, Setup, StepView, simulate};

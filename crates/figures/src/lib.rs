@@ -24,6 +24,7 @@ mod shape;
 mod sheet;
 mod statistics;
 mod style;
+mod ticks;
 
 pub use boxes::boxes;
 pub use comparison::comparison;

@@ -4,12 +4,13 @@ use nalgebra::{Point3, Vector3};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::camera::{Camera, View};
-use crate::axis::{bounds, tick_labels};
+use crate::axis::bounds;
 use crate::error::DrawingError;
 use crate::figure::Area;
 use crate::shape::{Look, Shape};
 use crate::sheet::{text_style, units};
 use crate::style::{AXIS, Colour, GRID, INK, SMALL_TEXT, Stroke, TEXT};
+use crate::ticks::tick_labels;
 
 const WALL: Colour = Colour(0xf8, 0xf8, 0xf8);
 
