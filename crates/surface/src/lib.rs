@@ -12,8 +12,10 @@
 //! No function panics, whatever it is given. Coordinates must be finite and at most
 //! [`MAX_COORDINATE_CM`] in size, which keeps every predicate free of overflow.
 
+mod clearance;
 mod edges;
 mod error;
+mod fan;
 mod features;
 mod hull;
 mod mesh;
@@ -25,7 +27,9 @@ mod surface;
 mod topology;
 mod winding;
 
+pub use clearance::Clearance;
 pub use error::SurfaceError;
+pub use fan::Fan;
 pub use features::pick_features;
 pub use mesh::Mesh;
 pub use phantom::{

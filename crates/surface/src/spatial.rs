@@ -36,12 +36,17 @@ impl Bounds {
             high: [f64::NEG_INFINITY; 3],
         };
         for p in points {
-            for axis in 0..3 {
-                bounds.low[axis] = bounds.low[axis].min(p[axis]);
-                bounds.high[axis] = bounds.high[axis].max(p[axis]);
-            }
+            bounds.include(p);
         }
         bounds
+    }
+
+    /// Grows the box to hold `p`.
+    pub(crate) fn include(&mut self, p: &Point) {
+        for axis in 0..3 {
+            self.low[axis] = self.low[axis].min(p[axis]);
+            self.high[axis] = self.high[axis].max(p[axis]);
+        }
     }
 
     fn of_aabb(aabb: &Aabb) -> Self {
@@ -75,11 +80,16 @@ impl Bounds {
         let half = [0, 1, 2].map(|i| 0.5 * (self.high[i] - self.low[i]));
         let from_centre = [0, 1, 2].map(|i| 0.5 * (a[i] - self.low[i] + a[i] - self.high[i]));
         let along = [0, 1, 2].map(|i| b[i] - a[i]);
+        // Differences are as uncertain as the coordinates that they come from.
+        let corners = self.low.iter().chain(&self.high);
+        let coordinate = corners.fold(a.coords.amax().max(b.coords.amax()), |most, x| {
+            most.max(x.abs())
+        });
         [(0, 1), (1, 2), (2, 0)].into_iter().any(|(i, j)| {
             let gap = (from_centre[i] * along[j] - from_centre[j] * along[i]).abs();
             let reach = half[i] * along[j].abs() + half[j] * along[i].abs();
-            let size = (from_centre[i] * along[j]).abs() + (from_centre[j] * along[i]).abs();
-            let rounding = 16.0 * f64::EPSILON * (size + reach);
+            let lengths = [i, j].map(|k| half[k] + from_centre[k].abs() + along[k].abs());
+            let rounding = 16.0 * f64::EPSILON * coordinate * (lengths[0] + lengths[1]);
             gap > reach + rounding
         })
     }
@@ -90,8 +100,9 @@ impl Bounds {
 pub(crate) struct Tree(Bvh);
 
 impl Tree {
-    pub(crate) fn over(boxes: impl Iterator<Item = Bounds>) -> Self {
+    pub(crate) fn over(boxes: &[Bounds]) -> Self {
         let leaves: Vec<Aabb> = boxes
+            .iter()
             .map(|b| Aabb::new(Vector::from(b.low), Vector::from(b.high)))
             .collect();
         Self(Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves))

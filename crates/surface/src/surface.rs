@@ -1,6 +1,6 @@
 //! A topology placed in the world at one moment.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::Point3;
 
@@ -9,13 +9,16 @@ use crate::spatial::{Bounds, Tree, distance_to_triangle};
 use crate::winding::crossing_above;
 use crate::{SurfaceError, Topology, check_points, is_usable};
 
-/// From this many faces on, a tree of boxes is built; below, trying them all is faster.
+/// From this many faces on, a tree of boxes is built for single questions; below, trying them all is
+/// faster.
 const TREE_FROM_FACES: usize = 128;
 
 /// A closed surface in the world (cm): a [`Topology`] with a position for each of its points.
 ///
-/// Cheap to make, because it is made anew whenever the points move. It may cross itself a little
-/// and have faces without area, as deformed and estimated surfaces do.
+/// Cheap to make, and cheaper to [`place`](Surface::place) again whenever the points move. It may
+/// cross itself a little and have faces without area, as deformed and estimated surfaces do.
+///
+/// Where many segments start at one place, a [`Fan`](crate::Fan) answers for all of them at once.
 ///
 /// Questions about positions that are not finite (or beyond
 /// [`MAX_COORDINATE_CM`](crate::MAX_COORDINATE_CM)) are answered on the safe side: the distance is
@@ -25,7 +28,9 @@ pub struct Surface {
     topology: Arc<Topology>,
     points: Vec<Point3<f64>>,
     boxes: Vec<Bounds>,
-    tree: Option<Tree>,
+    tree_from: usize,
+    /// Made when the first question asks for it.
+    tree: OnceLock<Tree>,
 }
 
 impl Surface {
@@ -43,23 +48,39 @@ impl Surface {
         topology: &Arc<Topology>,
         points: &[Point3<f64>],
     ) -> Result<Self, SurfaceError> {
-        let (expected, given) = (topology.point_count(), points.len());
+        let mut surface = Self {
+            topology: Arc::clone(topology),
+            points: Vec::new(),
+            boxes: Vec::new(),
+            tree_from: least_faces,
+            tree: OnceLock::new(),
+        };
+        surface.place(points)?;
+        Ok(surface)
+    }
+
+    /// Moves the points to new places (world, cm), as [`Surface::new`] would put them, without
+    /// allocating.
+    ///
+    /// # Errors
+    /// A wrong number of points, or unusable coordinates; the surface stays as it was.
+    pub fn place(&mut self, points: &[Point3<f64>]) -> Result<(), SurfaceError> {
+        let (expected, given) = (self.topology.point_count(), points.len());
         if expected != given {
             return Err(SurfaceError::PointCount { expected, given });
         }
         check_points(points)?;
-        let boxes: Vec<Bounds> = topology
-            .faces()
-            .iter()
-            .map(|corners| Bounds::of(corners.map(|i| &points[i])))
-            .collect();
-        let tree = (boxes.len() >= least_faces).then(|| Tree::over(boxes.iter().copied()));
-        Ok(Self {
-            topology: Arc::clone(topology),
-            points: points.to_vec(),
-            boxes,
-            tree,
-        })
+        self.points.clear();
+        self.points.extend_from_slice(points);
+        self.boxes.clear();
+        self.boxes.extend(
+            self.topology
+                .faces()
+                .iter()
+                .map(|corners| Bounds::of(corners.map(|i| &points[i]))),
+        );
+        self.tree = OnceLock::new();
+        Ok(())
     }
 
     /// The distance from `p` (world) to the surface in cm: positive outside, negative inside.
@@ -108,8 +129,19 @@ impl Surface {
         &self.topology
     }
 
-    fn corners(&self, face: usize) -> [&Point3<f64>; 3] {
+    pub(crate) fn corners(&self, face: usize) -> [&Point3<f64>; 3] {
         self.topology.faces()[face].map(|i| &self.points[i])
+    }
+
+    /// A box round each face.
+    pub(crate) fn boxes(&self) -> &[Bounds] {
+        &self.boxes
+    }
+
+    /// The tree over the faces, where there are enough of them for one.
+    fn tree(&self) -> Option<&Tree> {
+        (self.boxes.len() >= self.tree_from)
+            .then(|| self.tree.get_or_init(|| Tree::over(&self.boxes)))
     }
 
     fn any_face_touched(
@@ -122,16 +154,16 @@ impl Surface {
             counts(&self.topology.faces()[face])
                 && segment_touches_triangle(a, b, self.corners(face))
         };
-        if let Some(tree) = &self.tree {
+        if let Some(tree) = self.tree() {
             return tree.near_segment(a, b).any(touches);
         }
         let around = Bounds::of([a, b]);
         (0..self.boxes.len()).any(|face| self.boxes[face].touch(&around) && touches(face))
     }
 
-    fn distance(&self, p: &Point3<f64>) -> f64 {
+    pub(crate) fn distance(&self, p: &Point3<f64>) -> f64 {
         let to_face = |face: usize| distance_to_triangle(p, self.corners(face));
-        if let Some(tree) = &self.tree {
+        if let Some(tree) = self.tree() {
             return tree.least_distance(p, to_face);
         }
         let mut least = f64::INFINITY;
@@ -143,9 +175,9 @@ impl Surface {
         least
     }
 
-    fn winding_number(&self, p: &Point3<f64>) -> i32 {
+    pub(crate) fn winding_number(&self, p: &Point3<f64>) -> i32 {
         let above = |face: usize| crossing_above(p, self.corners(face));
-        if let Some(tree) = &self.tree {
+        if let Some(tree) = self.tree() {
             return tree.above(p).map(above).sum();
         }
         let reached = (0..self.boxes.len()).filter(|&face| self.boxes[face].reaches_above(p));
@@ -199,7 +231,7 @@ mod tests {
             segments in prop::collection::vec((point(), point(), 0_usize..400), 50),
         ) {
             let [with, without] = both();
-            prop_assert!(with.tree.is_some() && without.tree.is_none());
+            prop_assert!(with.tree().is_some() && without.tree().is_none());
             for (a, b, i) in segments {
                 prop_assert_eq!(with.signed_distance(&a), without.signed_distance(&a));
                 prop_assert_eq!(with.crosses(&a, &b), without.crosses(&a, &b));
@@ -220,9 +252,9 @@ mod tests {
     fn a_tree_is_built_for_many_faces_only() {
         let [with, without] = both();
         let anew = Surface::new(&with.topology, &without.points).unwrap();
-        assert!(anew.tree.is_some());
+        assert!(anew.tree().is_some());
         let few = &with.points[..40];
         let topology = Arc::new(Topology::convex_hull(few).unwrap());
-        assert!(Surface::new(&topology, few).unwrap().tree.is_none());
+        assert!(Surface::new(&topology, few).unwrap().tree().is_none());
     }
 }

@@ -1,0 +1,216 @@
+//! Many segments from one place at once: lines of sight, and ways to go.
+//!
+//! Seen from the place, a segment passes through a face if it lies on the same side of the three
+//! planes through the place and an edge, and reaches the face's plane. All of it follows from one
+//! product for each edge and segment. Where that product stands out of its own rounding, its sign is
+//! the exact one; the few cases that do not are left to the exact predicates, so the answers
+//! are those of [`Surface::sees`] and [`Surface::crosses`], to the last one.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::predicates::segment_touches_triangle;
+use crate::spatial::Bounds;
+use crate::{Surface, is_usable};
+
+type Point = Point3<f64>;
+
+/// Bound on the rounding of the sum of four determinants of differences of points, in units of the
+/// cube of the largest coordinate among these: each has six products of three factors, which leaves
+/// less than 100 ε.
+const ROUNDING: f64 = 512.0 * f64::EPSILON;
+
+/// Segments that are looked at together; lists are filled up to a multiple of it.
+const LANES: usize = 8;
+
+/// Room for the segments from one place, kept from place to place.
+#[derive(Clone, Debug, Default)]
+pub struct Fan {
+    /// The segments not known to be blocked: the numbers of their ends.
+    open: Vec<usize>,
+    /// Their ends, from the place, one axis after the other.
+    ends: [Vec<f64>; 3],
+    /// How clearly each passes through the face at hand.
+    clearness: Vec<f64>,
+}
+
+impl Fan {
+    /// Of the surface points numbered in `targets`, those to which a sensor at `sensor` (world, cm)
+    /// has a line of sight, in their order: as [`Surface::sees`] says for each. Allocates only when a
+    /// fan has more segments than any before it.
+    pub fn seen(
+        &mut self,
+        surface: &Surface,
+        sensor: &Point,
+        targets: impl IntoIterator<Item = usize>,
+    ) -> &[usize] {
+        let points = surface.points();
+        self.open.clear();
+        if is_usable(sensor) {
+            self.open
+                .extend(targets.into_iter().filter(|&i| i < points.len()));
+        } else {
+            let here = |&i: &usize| points.get(i) == Some(sensor);
+            self.open.extend(targets.into_iter().filter(here));
+            return &self.open;
+        }
+        self.block(surface, sensor, points, |corners, id| {
+            corners.contains(&id) || points[id] == *sensor
+        });
+        &self.open
+    }
+
+    /// Of the `ends` (world, cm) numbered in `targets` those that the straight way from `start` reaches
+    /// without touching the surface, in their order: where [`Surface::crosses`] says no.
+    pub fn free(
+        &mut self,
+        surface: &Surface,
+        start: &Point,
+        ends: &[Point],
+        targets: impl IntoIterator<Item = usize>,
+    ) -> &[usize] {
+        self.open.clear();
+        if is_usable(start) {
+            let usable = |&i: &usize| ends.get(i).is_some_and(is_usable);
+            self.open.extend(targets.into_iter().filter(usable));
+        }
+        self.block(surface, start, ends, |_, _| false);
+        &self.open
+    }
+
+    /// Closes the segments that touch a face, but for the faces that are `exempt` for an end.
+    fn block(
+        &mut self,
+        surface: &Surface,
+        from: &Point,
+        ends: &[Point],
+        exempt: impl Fn(&[usize; 3], usize) -> bool,
+    ) {
+        let (around, size) = self.lay_out(from, ends);
+        let arch = pulp::Arch::new();
+        for (face, numbers) in surface.topology().faces().iter().enumerate() {
+            if self.open.is_empty() {
+                return;
+            }
+            if !surface.boxes()[face].touch(&around) {
+                continue;
+            }
+            let corners = surface.corners(face);
+            let view = FaceView::from(from, corners, size);
+            let (lists, clearness) = (&self.ends, &mut self.clearness);
+            if arch.dispatch(|| view.clearness(lists, clearness)) < -view.rounding {
+                continue;
+            }
+            self.keep(|id, clearness| {
+                clearness < -view.rounding
+                    || exempt(numbers, id)
+                    || (clearness <= view.rounding
+                        && !segment_touches_triangle(from, &ends[id], corners))
+            });
+        }
+    }
+
+    /// Lists the ends of the open segments as seen from `from`; the box round all segments, and their
+    /// largest coordinate.
+    fn lay_out(&mut self, from: &Point, ends: &[Point]) -> (Bounds, f64) {
+        let mut around = Bounds::of([from]);
+        let mut size = 0.0_f64;
+        let filled = self.open.len().next_multiple_of(LANES);
+        for (axis, list) in self.ends.iter_mut().enumerate() {
+            list.clear();
+            list.extend(self.open.iter().map(|&id| ends[id][axis] - from[axis]));
+            list.resize(filled, 0.0);
+            size = list.iter().fold(size, |size, x| size.max(x.abs()));
+        }
+        for &id in &self.open {
+            around.include(&ends[id]);
+        }
+        self.clearness.resize(filled, 0.0);
+        (around, size)
+    }
+
+    /// Keeps the open segments for which `stays`, given the number of the end and the clearness.
+    fn keep(&mut self, mut stays: impl FnMut(usize, f64) -> bool) {
+        let mut kept = 0;
+        for at in 0..self.open.len() {
+            let id = self.open[at];
+            if stays(id, self.clearness[at]) {
+                self.open[kept] = id;
+                for list in &mut self.ends {
+                    list[kept] = list[at];
+                }
+                kept += 1;
+            }
+        }
+        self.open.truncate(kept);
+        let filled = kept.next_multiple_of(LANES);
+        for list in &mut self.ends {
+            list.truncate(filled);
+        }
+        self.clearness.truncate(filled);
+    }
+}
+
+/// A face as seen from a place.
+struct FaceView {
+    /// Normals of the planes through the place and an edge, pointing to where the face is; their
+    /// products with the end of a segment are positive if it heads through the face.
+    planes: [Vector3<f64>; 3],
+    /// What the three products must add up to where the segment reaches the face's plane.
+    volume: f64,
+    /// A clearness beyond this, either way, is beyond doubt.
+    rounding: f64,
+}
+
+impl FaceView {
+    /// `size`: the largest coordinate of the segments' ends as seen from the place.
+    fn from(place: &Point, corners: [&Point; 3], size: f64) -> Self {
+        let [a, b, c] = corners.map(|corner| corner - place);
+        let size = [a, b, c].iter().fold(size, |size, v| size.max(v.amax()));
+        // Products below the normal numbers lose digits; no doubt is resolved there.
+        let rounding = ROUNDING * size * size * size + f64::MIN_POSITIVE;
+        let planes = [a.cross(&b), b.cross(&c), c.cross(&a)];
+        let volume = planes[0].dot(&c);
+        if volume.abs() <= rounding {
+            // Seen edge on: everything is in doubt.
+            let planes = [Vector3::zeros(); 3];
+            return Self {
+                planes,
+                volume: 0.0,
+                rounding,
+            };
+        }
+        Self {
+            planes: planes.map(|normal| normal * volume.signum()),
+            volume: volume.abs(),
+            rounding,
+        }
+    }
+
+    /// Writes for each segment, `ends` axis by axis, how clearly it passes through the face: negative
+    /// where it does not, about zero where it touches an edge, a corner or the plane. Returns the
+    /// largest. All lists have the same length, a multiple of [`LANES`].
+    #[inline(always)]
+    fn clearness(&self, ends: &[Vec<f64>; 3], out: &mut [f64]) -> f64 {
+        let [x, y, z] = ends.each_ref().map(|list| list.as_chunks::<LANES>().0);
+        let mut largest = [f64::NEG_INFINITY; LANES];
+        for (((x, y), z), out) in x.iter().zip(y).zip(z).zip(out.as_chunks_mut::<LANES>().0) {
+            for lane in 0..LANES {
+                let [u, v, w] = self
+                    .planes
+                    .each_ref()
+                    .map(|n| n.x * x[lane] + n.y * y[lane] + n.z * z[lane]);
+                let reach = u + v + w - self.volume;
+                let clearness = smaller(smaller(u, v), smaller(w, reach));
+                out[lane] = clearness;
+                largest[lane] = -smaller(-largest[lane], -clearness);
+            }
+        }
+        largest.into_iter().fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// As [`f64::min`] for numbers that are not NaN, in one instruction.
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
