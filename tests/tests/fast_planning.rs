@@ -11,7 +11,9 @@ use adslam_estimator::{Belief, DirectTrace, PlannedMeasurement};
 use adslam_experiment::ExperimentError;
 use adslam_experiment::run::{Interrupt, Observer, Setup, StepView, simulate};
 use adslam_experiment::scenario::PlannerName;
-use adslam_planning::{SafeActions, Situation, TRACE_TOLERANCE, features_seen_in_pose};
+use adslam_planning::{
+    ObjectSurfaces, SafeActions, Situation, TRACE_TOLERANCE, features_seen_in_pose,
+};
 use adslam_tests::setup;
 
 struct Plain<'a> {
@@ -31,12 +33,14 @@ impl Plain<'_> {
             model,
             time_is_up: None,
         };
-        let (now, after) = situation.surfaces().unwrap();
-        let safe = SafeActions::find(&situation, &now, &after).unwrap();
+        let mut surfaces = ObjectSurfaces::default();
+        let [now, after] = surfaces.place(&situation).unwrap();
+        let mut safe = SafeActions::default();
+        safe.find(&situation, [now, after]).unwrap();
         let direct = DirectTrace::new(belief, &feature_motion, &model.noise, true).unwrap();
         let sigma = model.noise.feature_measurement_sigma;
         let trace = |control, pose| {
-            let seen = features_seen_in_pose(&model.sensor, pose, &after);
+            let seen = features_seen_in_pose(&model.sensor, pose, after);
             let seen: Vec<PlannedMeasurement> = seen
                 .into_iter()
                 .map(|feature| PlannedMeasurement::isotropic(feature, sigma))
@@ -56,7 +60,7 @@ impl Observer for Plain<'_> {
     fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
         if let (Some(belief), Some((decision, _))) = (self.belief.take(), view.decision) {
             let (safe, traces) = self.traces(&belief, view.step - 1);
-            assert_eq!(decision.safe, safe.candidates().len());
+            assert_eq!(decision.safe, safe.safe());
             let smallest = traces.iter().copied().fold(f64::INFINITY, f64::min);
             let chosen = decision.predicted_trace.unwrap();
             assert!(

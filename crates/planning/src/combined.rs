@@ -2,12 +2,8 @@
 
 use nalgebra::Point3;
 
-use crate::goal::nearest_first;
-use crate::local::decide_by_trace;
-use crate::scoring::ActionScorer;
-use crate::{
-    Decision, Goals, Planner, PlanningError, PlanningNoise, SafeActions, Score, Situation,
-};
+use crate::trace_choice::TraceChoice;
+use crate::{Decision, Goals, Planner, PlanningError, PlanningNoise, Score, Situation};
 
 /// nᵤ, how many of the safe actions nearest to the goal are scored.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +36,7 @@ impl Nearest {
 pub struct CombinedPlanner {
     goals: Goals,
     nearest: Nearest,
-    scorer: ActionScorer,
+    choice: TraceChoice,
 }
 
 impl CombinedPlanner {
@@ -50,7 +46,7 @@ impl CombinedPlanner {
         Self {
             goals,
             nearest,
-            scorer: ActionScorer::new(noise),
+            choice: TraceChoice::new(noise),
         }
     }
 }
@@ -58,11 +54,10 @@ impl CombinedPlanner {
 impl Planner for CombinedPlanner {
     fn decide(&mut self, situation: &Situation<'_>) -> Result<Decision, PlanningError> {
         let goal = self.goals.next_from(&situation.belief.state.pose.position);
-        let (now, after) = situation.surfaces()?;
-        let safe = SafeActions::find(situation, &now, &after)?;
-        let mut nearest = nearest_first(safe.candidates(), &goal.1);
-        nearest.truncate(self.nearest.of(nearest.len()));
-        let decision = decide_by_trace(situation, &after, &safe, &nearest, &mut self.scorer)?;
+        let decision = self.choice.decide(situation, |safe| {
+            let count = self.nearest.of(safe.candidates().len());
+            safe.keep_nearest(&goal.1, count);
+        })?;
         Ok(Decision {
             goal: Some(goal),
             ..decision
@@ -70,7 +65,7 @@ impl Planner for CombinedPlanner {
     }
 
     fn scores(&self) -> &[Score] {
-        self.scorer.scores()
+        self.choice.scores()
     }
 
     fn viewpoints(&self) -> &[Point3<f64>] {

@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use crate::{Candidate, PlanningError};
+use crate::PlanningError;
 
 /// The viewpoints in the order in which they are visited, over and over, and the one that is next.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,20 +43,6 @@ impl Goals {
         }
         (self.current, self.viewpoints[self.current])
     }
-}
-
-/// Candidates sorted by D, the distance from the predicted position to the goal, eq. (9); equals
-/// stay in the order of the action set.
-pub(crate) fn nearest_first<'c>(
-    candidates: &'c [Candidate],
-    goal: &Point3<f64>,
-) -> Vec<&'c Candidate> {
-    let mut keyed: Vec<(f64, &Candidate)> = candidates
-        .iter()
-        .map(|candidate| ((candidate.pose.position - goal).norm_squared(), candidate))
-        .collect();
-    keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
-    keyed.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
 #[cfg(test)]

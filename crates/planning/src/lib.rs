@@ -23,6 +23,8 @@ mod planner;
 mod predetermined;
 mod safety;
 mod scoring;
+mod surfaces;
+mod trace_choice;
 mod viewpoint;
 mod visible_sets;
 
@@ -36,8 +38,10 @@ pub use model::PlanningModel;
 pub use planner::{Decision, Planner, Score, Situation};
 pub use predetermined::PredeterminedPlanner;
 pub use safety::{Candidate, SafeActions};
-pub use scoring::{PlanningNoise, TRACE_TOLERANCE};
+pub use scoring::{ActionScorer, PlanningNoise, TRACE_TOLERANCE};
+pub use surfaces::ObjectSurfaces;
 pub use viewpoint::{
     ViewpointPath, ViewpointSampling, features_never_seen, features_seen_from,
     features_seen_in_pose, sample_viewpoints,
 };
+pub use visible_sets::VisibleSets;

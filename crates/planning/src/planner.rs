@@ -2,7 +2,6 @@
 
 use adslam_estimator::Belief;
 use adslam_models::{Control, Pose};
-use adslam_surface::Surface;
 use nalgebra::{Point3, Vector3};
 
 use crate::{PlanningError, PlanningModel};
@@ -25,18 +24,6 @@ impl Situation<'_> {
     /// Whether the time for the decision is up.
     pub(crate) fn is_late(&self) -> bool {
         self.time_is_up.is_some_and(|time_is_up| time_is_up())
-    }
-
-    /// The surface of the estimated features before and after their known motion.
-    ///
-    /// # Errors
-    /// Estimates that do not fit the surface's faces or are not finite.
-    pub fn surfaces(&self) -> Result<(Surface, Surface), PlanningError> {
-        let topology = &self.model.topology;
-        let mut moved = self.belief.state.clone();
-        let now = Surface::new(topology, &moved.features)?;
-        moved.move_features(self.feature_motion);
-        Ok((now, Surface::new(topology, &moved.features)?))
     }
 }
 

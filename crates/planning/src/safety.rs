@@ -1,7 +1,8 @@
 //! Which actions keep the robot off the object.
 
 use adslam_models::{Control, Pose, predicted_pose};
-use adslam_surface::Surface;
+use adslam_surface::{Clearance, Surface};
+use nalgebra::Point3;
 
 use crate::{Decision, PlanningError, Situation};
 
@@ -19,11 +20,15 @@ pub struct Candidate {
 /// The actions of a situation that are safe: they end farther than the clearance from the surface of
 /// the estimated features, both as it is and as it will be, on its outside, and the straight
 /// way there crosses neither. Where none is, the one that clears the surface by most.
-#[derive(Clone, Debug)]
+///
+/// Keeps its room from decision to decision.
+#[derive(Clone, Debug, Default)]
 pub struct SafeActions {
     candidates: Vec<Candidate>,
+    safe: usize,
     admissible: usize,
-    compromised: bool,
+    considered: Vec<Candidate>,
+    clearance: Clearance,
 }
 
 impl SafeActions {
@@ -31,81 +36,103 @@ impl SafeActions {
     /// after their known motion.
     ///
     /// Where the attitude is so far off that no action keeps the limits of roll and pitch, the
-    /// limits are waived.
+    /// limits are waived, and all that is left counts as a compromise.
     ///
     /// # Errors
     /// [`PlanningError::NoActions`] if the set is empty.
     pub fn find(
+        &mut self,
         situation: &Situation<'_>,
-        now: &Surface,
-        after: &Surface,
-    ) -> Result<Self, PlanningError> {
+        [now, after]: [&Surface; 2],
+    ) -> Result<(), PlanningError> {
         let model = situation.model;
         let pose = situation.belief.state.pose;
-        let all: Vec<Candidate> = model
-            .actions
-            .controls()
-            .iter()
-            .enumerate()
-            .map(|(index, control)| Candidate {
-                index,
-                control: *control,
-                pose: predicted_pose(&pose, control),
-            })
-            .collect();
-        let within_limits: Vec<Candidate> = all
-            .iter()
-            .filter(|candidate| model.actions.admits(candidate.pose.orientation))
-            .cloned()
-            .collect();
-        let admissible = within_limits.len();
-        let considered = if admissible == 0 { all } else { within_limits };
-        let is_safe = |candidate: &Candidate| {
-            let end = &candidate.pose.position;
-            after.signed_distance(end) > model.clearance
-                && now.signed_distance(end) > model.clearance
-                && !after.crosses(&pose.position, end)
-                && !now.crosses(&pose.position, end)
+        let predicted = |(index, control): (usize, &Control)| Candidate {
+            index,
+            control: *control,
+            pose: predicted_pose(&pose, control),
         };
-        let safe: Vec<Candidate> = considered
-            .iter()
-            .filter(|candidate| is_safe(candidate))
-            .cloned()
-            .collect();
-        if !safe.is_empty() {
-            return Ok(Self {
-                candidates: safe,
-                admissible,
-                compromised: admissible == 0,
-            });
+        let all = model.actions.controls().iter().enumerate().map(predicted);
+        let admitted = |candidate: &Candidate| model.actions.admits(candidate.pose.orientation);
+        self.considered.clear();
+        self.considered.extend(all.clone().filter(admitted));
+        self.admissible = self.considered.len();
+        if self.considered.is_empty() {
+            self.considered.extend(all);
         }
+
+        self.candidates.clear();
+        self.candidates.extend_from_slice(&self.considered);
+        for surface in [after, now] {
+            let ends = self
+                .candidates
+                .iter()
+                .map(|candidate| candidate.pose.position);
+            let clear = self
+                .clearance
+                .clear_ways(surface, &pose.position, ends, model.clearance);
+            for (to, &from) in clear.iter().enumerate() {
+                self.candidates.swap(to, from);
+            }
+            self.candidates.truncate(clear.len());
+        }
+        let kept_limits = self.admissible > 0;
+        self.safe = if kept_limits {
+            self.candidates.len()
+        } else {
+            0
+        };
+        if self.candidates.is_empty() {
+            let best = self
+                .clears_by_most(now, after)
+                .ok_or(PlanningError::NoActions)?;
+            self.candidates.push(best);
+        }
+        Ok(())
+    }
+
+    /// The first of the actions whose end is farthest from the surfaces.
+    fn clears_by_most(&self, now: &Surface, after: &Surface) -> Option<Candidate> {
         let distance = |candidate: &Candidate| {
             let end = &candidate.pose.position;
             after.signed_distance(end).min(now.signed_distance(end))
         };
-        // The first of equals, as everywhere.
-        let best = considered
-            .into_iter()
-            .map(|candidate| (distance(&candidate), candidate))
+        self.considered
+            .iter()
+            .map(|candidate| (distance(candidate), candidate))
             .reduce(|best, other| if other.0 > best.0 { other } else { best })
-            .ok_or(PlanningError::NoActions)?;
-        Ok(Self {
-            candidates: vec![best.1],
-            admissible,
-            compromised: true,
-        })
+            .map(|(_, candidate)| candidate.clone())
     }
 
-    /// The actions to choose from, at least one, in the order of the action set.
+    /// Keeps the `count` candidates, at least one, that end nearest to `goal` (world, cm), those first
+    /// that are nearest, eq. (9); of equals the first in the action set.
+    pub fn keep_nearest(&mut self, goal: &Point3<f64>, count: usize) {
+        let squared_distance = |c: &Candidate| (c.pose.position - goal).norm_squared();
+        self.candidates.sort_unstable_by(|a, b| {
+            squared_distance(a)
+                .total_cmp(&squared_distance(b))
+                .then(a.index.cmp(&b.index))
+        });
+        self.candidates.truncate(count.max(1));
+    }
+
+    /// The actions to choose from, at least one, in the order of the action set until
+    /// [`SafeActions::keep_nearest`] sorts them.
     #[must_use]
     pub fn candidates(&self) -> &[Candidate] {
         &self.candidates
     }
 
-    /// Whether the one candidate left is not safe.
+    /// How many actions are safe.
+    #[must_use]
+    pub fn safe(&self) -> usize {
+        self.safe
+    }
+
+    /// Whether no action is safe within the limits of roll and pitch.
     #[must_use]
     pub fn compromised(&self) -> bool {
-        self.compromised
+        self.safe == 0
     }
 
     /// The record of choosing one of these.
@@ -113,12 +140,8 @@ impl SafeActions {
     pub fn decision(&self, chosen: Control) -> Decision {
         Decision {
             admissible: self.admissible,
-            safe: if self.compromised {
-                0
-            } else {
-                self.candidates.len()
-            },
-            compromised: self.compromised,
+            safe: self.safe,
+            compromised: self.compromised(),
             ..Decision::without_choice(chosen)
         }
     }

@@ -2,10 +2,8 @@
 
 use adslam_estimator::{FilterNoise, PosteriorTrace, SetId};
 use adslam_models::FeatureId;
-use adslam_surface::Surface;
 
-use crate::visible_sets::VisibleSets;
-use crate::{Candidate, PlanningError, Score, Situation};
+use crate::{Candidate, PlanningError, Score, Situation, VisibleSets};
 
 /// What a planner assumes otherwise than the filter does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,9 +28,8 @@ impl PlanningNoise {
 
 /// Scores the candidates of one decision after another; keeps its room between them.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct ActionScorer {
+pub struct ActionScorer {
     noise: PlanningNoise,
-    sets: VisibleSets,
     ids: Vec<FeatureId>,
     /// The sets computed so far: where in `sets` each stands, and where in the objective.
     computed: Vec<(usize, SetId)>,
@@ -48,7 +45,9 @@ pub const TRACE_TOLERANCE: f64 = 1e-12;
 const MARGIN: f64 = 1.0 + 100.0 * TRACE_TOLERANCE;
 
 impl ActionScorer {
-    pub(crate) fn new(noise: PlanningNoise) -> Self {
+    /// A scorer that assumes this noise.
+    #[must_use]
+    pub fn new(noise: PlanningNoise) -> Self {
         Self {
             noise,
             ..Self::default()
@@ -56,13 +55,13 @@ impl ActionScorer {
     }
 
     /// The actions scored for the last decision, in the order of scoring.
-    pub(crate) fn scores(&self) -> &[Score] {
+    #[must_use]
+    pub fn scores(&self) -> &[Score] {
         &self.scores
     }
 
     /// The score of the candidate with the smallest trace, the first in the action set among equals;
-    /// nothing if there are no candidates. `after` is the surface of the estimated features after
-    /// their known motion.
+    /// nothing if there are no candidates. `sets` says what each of them sees.
     ///
     /// Candidates are scored in groups that see the same, those that see most first. One that is
     /// sure to be worse than the best so far is passed over: measuring more never raises the
@@ -70,20 +69,14 @@ impl ActionScorer {
     ///
     /// # Errors
     /// A belief that has broken down.
-    pub(crate) fn best(
+    pub fn best(
         &mut self,
         situation: &Situation<'_>,
-        after: &Surface,
-        candidates: &[&Candidate],
+        candidates: &[Candidate],
+        sets: &VisibleSets,
     ) -> Result<Option<Score>, PlanningError> {
         let model = situation.model;
-        self.sets.find(
-            candidates.iter().copied(),
-            &model.actions,
-            &model.sensor,
-            after,
-        );
-        self.sets.union(&mut self.ids);
+        sets.union(&mut self.ids);
         let mut objective = PosteriorTrace::new(
             situation.belief,
             situation.feature_motion,
@@ -94,14 +87,14 @@ impl ActionScorer {
         self.scores.clear();
         self.computed.clear();
         let mut smallest = f64::INFINITY;
-        for group in self.sets.groups() {
-            let set = self.sets.set(group[0]);
+        for group in sets.groups() {
+            let set = sets.set(group[0]);
             // The latest is the smallest of those that contain this one.
             let wider = self
                 .computed
                 .iter()
                 .rev()
-                .find(|(other, _)| VisibleSets::contains(self.sets.set(*other), set))
+                .find(|(other, _)| VisibleSets::contains(sets.set(*other), set))
                 .map(|(_, id)| *id);
             let mut entered = None;
             for &place in group {
@@ -112,7 +105,7 @@ impl ActionScorer {
                     index,
                     control,
                     pose,
-                } = *candidates[place];
+                } = candidates[place];
                 if let Some(wider) = wider
                     && objective.after(&control, wider)? > smallest * MARGIN
                 {

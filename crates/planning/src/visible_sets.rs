@@ -1,71 +1,65 @@
 //! Which features each candidate sees, and candidates grouped by what they see.
 
+use std::iter;
+
 use adslam_models::{FeatureId, Sensor};
-use adslam_surface::Surface;
+use adslam_surface::{Fan, Surface};
+use nalgebra::Vector3;
 
 use crate::{ActionSet, Candidate};
 
 /// The visible sets of the candidates of a decision, as bits. A line of sight from one position to one
 /// feature is looked along once, however many orientations share the position.
+///
+/// Keeps its room from decision to decision.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct VisibleSets {
+pub struct VisibleSets {
     /// Words of 64 features in a set.
     words: usize,
     /// The set of each candidate, one after the other.
     bits: Vec<u64>,
-    /// For each position and feature what is known of the line of sight.
-    lines: Vec<Line>,
+    /// For each position the features whose line of sight was looked along, then those in sight.
+    positions: Vec<u64>,
     /// Candidates, those that see most first, equal sets together.
     order: Vec<usize>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Line {
-    Unknown,
-    Free,
-    Blocked,
+    fan: Fan,
 }
 
 impl VisibleSets {
     /// Finds out what each candidate sees of the object whose surface will be `surface`.
-    pub(crate) fn find<'c>(
+    pub fn find(
         &mut self,
-        candidates: impl IntoIterator<Item = &'c Candidate>,
+        candidates: &[Candidate],
         actions: &ActionSet,
         sensor: &Sensor,
         surface: &Surface,
     ) {
         let features = surface.points();
-        self.words = features.len().div_ceil(64);
+        let words = features.len().div_ceil(64);
+        self.words = words;
         self.bits.clear();
-        self.lines.clear();
-        self.lines
-            .resize(actions.position_count() * features.len(), Line::Unknown);
+        self.positions.clear();
+        self.positions
+            .resize(2 * words * actions.position_count(), 0);
         for candidate in candidates {
             let start = self.bits.len();
-            self.bits.resize(start + self.words, 0);
-            let position = &candidate.pose.position;
-            let lines = actions.position_of(candidate.index) * features.len();
-            let forward = candidate
-                .pose
-                .orientation
-                .rotation()
-                .into_inner()
-                .column(0)
-                .into_owned();
+            self.bits.resize(start + words, 0);
+            let set = &mut self.bits[start..];
+            let eye = candidate.pose.position;
+            let forward = candidate.pose.orientation.rotation() * Vector3::x();
             for (id, point) in features.iter().enumerate() {
-                let ahead = forward.dot(&(point - position)) > 0.0;
-                if !ahead || !sensor.in_range(position, point) {
-                    continue;
-                }
-                let line = &mut self.lines[lines + id];
-                if *line == Line::Unknown {
-                    let free = surface.sees(position, id);
-                    *line = if free { Line::Free } else { Line::Blocked };
-                }
-                if *line == Line::Free {
-                    self.bits[start + id / 64] |= 1 << (id % 64);
-                }
+                let ahead = forward.dot(&(point - eye)) > 0.0;
+                insert_if(ahead && sensor.in_range(&eye, point), set, id);
+            }
+            let position = 2 * words * actions.position_of(candidate.index);
+            let (looked, in_sight) = self.positions[position..][..2 * words].split_at_mut(words);
+            let unknown = set.iter().zip(&*looked).map(|(set, looked)| set & !looked);
+            for &id in self.fan.seen(surface, &eye, members(unknown)) {
+                insert_if(true, in_sight, id);
+            }
+            for ((set, looked), in_sight) in set.iter_mut().zip(looked).zip(in_sight) {
+                *looked |= *set;
+                *set &= *in_sight;
             }
         }
         self.sort();
@@ -88,39 +82,33 @@ impl VisibleSets {
     }
 
     /// The set of a candidate, by its place in the list that was given.
-    pub(crate) fn set(&self, candidate: usize) -> &[u64] {
+    pub fn set(&self, candidate: usize) -> &[u64] {
         &self.bits[candidate * self.words..][..self.words]
     }
 
     /// Candidates that see the same, group after group; those that see most come first.
-    pub(crate) fn groups(&self) -> impl Iterator<Item = &[usize]> {
+    pub fn groups(&self) -> impl Iterator<Item = &[usize]> {
         self.order.chunk_by(|&a, &b| self.set(a) == self.set(b))
     }
 
     /// The features that any candidate sees, in `ids`.
-    pub(crate) fn union(&self, ids: &mut Vec<FeatureId>) {
+    pub fn union(&self, ids: &mut Vec<FeatureId>) {
+        let any = |word| {
+            let of_each = self.bits.iter().skip(word).step_by(self.words);
+            of_each.fold(0, |all, bits| all | bits)
+        };
         ids.clear();
-        for word in 0..self.words {
-            let any = self
-                .bits
-                .iter()
-                .skip(word)
-                .step_by(self.words)
-                .fold(0, |all, w| all | w);
-            push_bits(any, word, ids);
-        }
+        ids.extend(members((0..self.words).map(any)).map(FeatureId));
     }
 
     /// The features of a set, in `ids`.
-    pub(crate) fn features(set: &[u64], ids: &mut Vec<FeatureId>) {
+    pub fn features(set: &[u64], ids: &mut Vec<FeatureId>) {
         ids.clear();
-        for (word, &bits) in set.iter().enumerate() {
-            push_bits(bits, word, ids);
-        }
+        ids.extend(members(set.iter().copied()).map(FeatureId));
     }
 
     /// Whether every feature of `part` is in `whole`.
-    pub(crate) fn contains(whole: &[u64], part: &[u64]) -> bool {
+    pub fn contains(whole: &[u64], part: &[u64]) -> bool {
         whole
             .iter()
             .zip(part)
@@ -128,11 +116,18 @@ impl VisibleSets {
     }
 }
 
-fn push_bits(mut bits: u64, word: usize, ids: &mut Vec<FeatureId>) {
-    while bits != 0 {
-        ids.push(FeatureId(64 * word + bits.trailing_zeros() as usize));
-        bits &= bits - 1;
-    }
+/// Adds `id` to a set where the condition holds.
+fn insert_if(condition: bool, set: &mut [u64], id: usize) {
+    set[id / 64] |= u64::from(condition) << (id % 64);
+}
+
+/// The members of a set given by its words, in order.
+fn members(words: impl Iterator<Item = u64>) -> impl Iterator<Item = usize> {
+    words.enumerate().flat_map(|(word, bits)| {
+        let rest = |bits: &u64| Some(bits & (bits - 1)).filter(|&bits| bits != 0);
+        iter::successors(Some(bits).filter(|&bits| bits != 0), rest)
+            .map(move |bits| 64 * word + bits.trailing_zeros() as usize)
+    })
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 mod common;
 
-use adslam_planning::{SafeActions, Situation};
+use adslam_planning::{ObjectSurfaces, SafeActions, Situation};
 use common::CLEARANCE;
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -22,8 +22,10 @@ proptest! {
             model: &model,
             time_is_up: None,
         };
-        let (now, after) = situation.surfaces()?;
-        let safe = SafeActions::find(&situation, &now, &after)?;
+        let mut surfaces = ObjectSurfaces::default();
+        let [now, after] = surfaces.place(&situation)?;
+        let mut safe = SafeActions::default();
+        safe.find(&situation, [now, after])?;
         let distance = |p| now.signed_distance(p).min(after.signed_distance(p));
         let chosen: Vec<usize> = safe.candidates().iter().map(|c| c.index).collect();
 

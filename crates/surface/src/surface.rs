@@ -124,6 +124,11 @@ impl Surface {
         &self.points
     }
 
+    /// Whether the surface has been made of just this topology.
+    pub fn is_over(&self, topology: &Arc<Topology>) -> bool {
+        Arc::ptr_eq(&self.topology, topology)
+    }
+
     /// Which points are joined by which faces.
     pub fn topology(&self) -> &Topology {
         &self.topology
