@@ -1,0 +1,351 @@
+//! Decisions of the local and the combined planner, on situations from runs of the shipped scenarios.
+//!
+//! `local_decision` and `combined_decision` time the scoring alone, of candidates whose visible sets are
+//! known; `whole_decision` all that a planner does for one step, and `parts` what is in it besides.
+//! Variants: `fast`, the objective by visible sets; `direct`, an ordinary dense update of the
+//! whole covariance for each action; `textbook`, every row stacked and S inverted.
+#![allow(
+    clippy::unwrap_used,
+    reason = "a failed preparation is a failed benchmark"
+)]
+
+#[path = "../../estimator/tests/common/mod.rs"]
+mod textbook;
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use adslam_estimator::{
+    Belief, DirectTrace, FeatureMeasurement, FilterNoise, PairMeasurement, PlannedMeasurement,
+};
+use adslam_experiment::ExperimentError;
+use adslam_experiment::run::{Interrupt, Observer, Setup, StepView, build_planner, simulate};
+use adslam_experiment::scenario::{PlannerName, Scenario};
+use adslam_models::FeatureId;
+use adslam_planning::{
+    ActionScorer, Candidate, Nearest, ObjectSurfaces, PlanningNoise, SafeActions, Situation,
+    VisibleSets,
+};
+use criterion::{
+    BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main,
+    measurement::WallTime,
+};
+use nalgebra::{Point3, Vector3};
+
+/// Steps of a run whose decisions are timed.
+const STEPS: [usize; 5] = [5, 10, 15, 20, 25];
+const SEED: u64 = 1;
+
+struct Case {
+    name: &'static str,
+    setup: Setup,
+}
+
+/// What a planner knew at one step.
+struct Moment {
+    belief: Belief,
+    feature_motion: Vec<Vector3<f64>>,
+    goal: Option<Point3<f64>>,
+}
+
+fn cases() -> Vec<Case> {
+    let case = |name, file: &str, features: Option<usize>| {
+        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+        let path = std::path::Path::new(root).join("scenarios").join(file);
+        let mut text = std::fs::read_to_string(&path).unwrap();
+        if let Some(features) = features {
+            assert!(text.contains("features = 50"));
+            text = text.replace("features = 50", &format!("features = {features}"));
+        }
+        let setup = Setup::new(&Scenario::parse(&text, &path).unwrap()).unwrap();
+        Case { name, setup }
+    };
+    vec![
+        case("polygon", "polygon.toml", None),
+        case("heart50", "heart.toml", None),
+        case("heart200", "heart.toml", Some(200)),
+        case("heart500", "heart.toml", Some(500)),
+    ]
+}
+
+struct Recorder<'a> {
+    setup: &'a Setup,
+    moments: Vec<Moment>,
+}
+
+impl Observer for Recorder<'_> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+        if STEPS.contains(&view.step) {
+            let goal = view.decision.and_then(|(decision, _)| decision.goal);
+            self.moments.push(Moment {
+                belief: view.belief.clone(),
+                feature_motion: self.setup.known_feature_motion(view.step),
+                goal: goal.map(|(_, viewpoint)| viewpoint),
+            });
+        }
+        if Some(&view.step) == STEPS.last() {
+            return Err(ExperimentError::Interrupted);
+        }
+        Ok(())
+    }
+}
+
+impl Case {
+    fn moments(&self, planner: PlannerName) -> Vec<Moment> {
+        let mut recorder = Recorder {
+            setup: &self.setup,
+            moments: Vec::new(),
+        };
+        let interrupt = Interrupt::new();
+        // It ends with the last of the steps.
+        let _ = simulate(&self.setup, planner, SEED, &interrupt, &mut recorder);
+        assert_eq!(recorder.moments.len(), STEPS.len());
+        recorder.moments
+    }
+
+    fn situation<'a>(&'a self, moment: &'a Moment) -> Situation<'a> {
+        Situation {
+            belief: &moment.belief,
+            feature_motion: &moment.feature_motion,
+            model: &self.setup.planning,
+            time_is_up: None,
+        }
+    }
+
+    fn noise(&self, planner: PlannerName) -> PlanningNoise {
+        let scenario = &self.setup.scenario;
+        PlanningNoise {
+            feature_measurement_sigma: Some(match planner {
+                PlannerName::Combined => scenario.combined_planning_sigma_cm(),
+                _ => scenario.local_planning_sigma_cm(),
+            }),
+        }
+    }
+}
+
+/// The candidates of one moment and what they see.
+struct Candidates {
+    safe: SafeActions,
+    sets: VisibleSets,
+    seen: Vec<Vec<FeatureId>>,
+}
+
+impl Candidates {
+    fn of(case: &Case, planner: PlannerName, moment: &Moment) -> Self {
+        let situation = case.situation(moment);
+        let (mut surfaces, mut safe) = (ObjectSurfaces::default(), SafeActions::default());
+        let [now, after] = surfaces.place(&situation).unwrap();
+        safe.find(&situation, [now, after]).unwrap();
+        if let Some(goal) = &moment.goal {
+            let nearest = case.setup.scenario.planners.combined.nearest();
+            let nearest = match nearest {
+                adslam_experiment::scenario::Nearest::Fraction(share) => Nearest::Fraction(share),
+                adslam_experiment::scenario::Nearest::Count(count) => Nearest::Count(count),
+            };
+            safe.keep_nearest(goal, nearest.of(safe.candidates().len()));
+        } else {
+            assert_eq!(planner, PlannerName::Local);
+        }
+        let model = &case.setup.planning;
+        let mut sets = VisibleSets::default();
+        sets.find(safe.candidates(), &model.actions, &model.sensor, after);
+        let seen = (0..safe.candidates().len())
+            .map(|candidate| {
+                let mut ids = Vec::new();
+                VisibleSets::features(sets.set(candidate), &mut ids);
+                ids
+            })
+            .collect();
+        Self { safe, sets, seen }
+    }
+}
+
+fn direct(
+    moment: &Moment,
+    noise: &FilterNoise,
+    candidates: &Candidates,
+    planned: &mut Vec<PlannedMeasurement>,
+) -> f64 {
+    let objective = DirectTrace::new(&moment.belief, &moment.feature_motion, noise, true).unwrap();
+    let mut best = f64::INFINITY;
+    for (candidate, seen) in candidates.safe.candidates().iter().zip(&candidates.seen) {
+        planned.clear();
+        let sigma = noise.feature_measurement_sigma;
+        planned.extend(
+            seen.iter()
+                .map(|&id| PlannedMeasurement::isotropic(id, sigma)),
+        );
+        best = best.min(objective.after(&candidate.control, planned).unwrap());
+    }
+    best
+}
+
+fn textbook(moment: &Moment, noise: &FilterNoise, candidates: &Candidates) -> f64 {
+    let belief = &moment.belief;
+    let p = textbook::covariance_matrix(belief);
+    let pairs: Vec<PairMeasurement> = textbook::every_pair(belief.state.features.len())
+        .into_iter()
+        .map(|(from, to)| PairMeasurement {
+            from: FeatureId(from),
+            to: FeatureId(to),
+            z: Vector3::zeros(),
+        })
+        .collect();
+    let trace = |(candidate, seen): (&Candidate, &Vec<FeatureId>)| {
+        let z = Vector3::zeros();
+        let features: Vec<FeatureMeasurement> = seen
+            .iter()
+            .map(|&feature| FeatureMeasurement { feature, z })
+            .collect();
+        let motion = &moment.feature_motion;
+        let (state, p) = textbook::propagate(&belief.state, &p, &candidate.control, motion, noise);
+        textbook::update(&state, &p, &features, &pairs, noise)
+            .1
+            .trace()
+    };
+    let all = candidates.safe.candidates().iter().zip(&candidates.seen);
+    all.map(trace).fold(f64::INFINITY, f64::min)
+}
+
+fn group<'c>(c: &'c mut Criterion, name: &str) -> BenchmarkGroup<'c, WallTime> {
+    let mut group = c.benchmark_group(name);
+    group
+        .sampling_mode(SamplingMode::Flat)
+        .sample_size(15)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(1000));
+    group
+}
+
+/// Runs through the moments, one each time it is called.
+fn in_turn<'a, T>(all: &'a [T]) -> impl FnMut() -> &'a T {
+    let mut turn = all.iter().cycle();
+    move || turn.next().unwrap()
+}
+
+fn scoring(c: &mut Criterion, name: &str, planner: PlannerName) {
+    let mut group = group(c, name);
+    for case in &cases() {
+        let noise = case.noise(planner);
+        let noise_over = noise.over(&case.setup.planning.noise);
+        let moments: Vec<(Moment, Candidates)> = case
+            .moments(planner)
+            .into_iter()
+            .map(|moment| {
+                let candidates = Candidates::of(case, planner, &moment);
+                (moment, candidates)
+            })
+            .collect();
+
+        let mut next = in_turn(&moments);
+        let mut scorer = ActionScorer::new(noise);
+        group.bench_function(BenchmarkId::new("fast", case.name), |b| {
+            b.iter(|| {
+                let (moment, candidates) = next();
+                let safe = candidates.safe.candidates();
+                let best = scorer.best(&case.situation(moment), safe, &candidates.sets);
+                black_box(best.unwrap().unwrap().trace)
+            });
+        });
+
+        let mut next = in_turn(&moments);
+        let mut planned = Vec::new();
+        group.bench_function(BenchmarkId::new("direct", case.name), |b| {
+            b.iter(|| {
+                let (moment, candidates) = next();
+                black_box(direct(moment, &noise_over, candidates, &mut planned))
+            });
+        });
+
+        if case.name == "polygon" {
+            let mut next = in_turn(&moments);
+            group.bench_function(BenchmarkId::new("textbook", case.name), |b| {
+                b.iter(|| {
+                    let (moment, candidates) = next();
+                    black_box(textbook(moment, &noise_over, candidates))
+                });
+            });
+        }
+    }
+    group.finish();
+}
+
+fn local_decision(c: &mut Criterion) {
+    scoring(c, "local_decision", PlannerName::Local);
+}
+
+fn combined_decision(c: &mut Criterion) {
+    scoring(c, "combined_decision", PlannerName::Combined);
+}
+
+fn whole_decision(c: &mut Criterion) {
+    let mut group = group(c, "whole_decision");
+    for case in &cases() {
+        for planner in [
+            PlannerName::Local,
+            PlannerName::Combined,
+            PlannerName::Global,
+        ] {
+            let moments = case.moments(planner);
+            let mut next = in_turn(&moments);
+            let belief = &moments[0].belief;
+            let (mut decider, _) = build_planner(&case.setup, planner, belief, SEED).unwrap();
+            group.bench_function(BenchmarkId::new(planner.to_string(), case.name), |b| {
+                b.iter(|| decider.decide(&case.situation(next())).unwrap());
+            });
+        }
+    }
+    group.finish();
+}
+
+fn parts(c: &mut Criterion) {
+    let mut group = group(c, "parts");
+    for case in &cases() {
+        let moments = case.moments(PlannerName::Local);
+        let model = &case.setup.planning;
+        let (mut surfaces, mut safe) = (ObjectSurfaces::default(), SafeActions::default());
+
+        let mut next = in_turn(&moments);
+        group.bench_function(BenchmarkId::new("clearance", case.name), |b| {
+            b.iter(|| {
+                let situation = case.situation(next());
+                let placed = surfaces.place(&situation).unwrap();
+                safe.find(&situation, placed).unwrap();
+                safe.safe()
+            });
+        });
+
+        let mut next = in_turn(&moments);
+        let mut sets = VisibleSets::default();
+        let found: Vec<(ObjectSurfaces, SafeActions)> = moments
+            .iter()
+            .map(|moment| {
+                let (mut surfaces, mut safe) = Default::default();
+                let situation = case.situation(moment);
+                let placed = ObjectSurfaces::place(&mut surfaces, &situation).unwrap();
+                SafeActions::find(&mut safe, &situation, placed).unwrap();
+                (surfaces, safe)
+            })
+            .collect();
+        let mut which = in_turn(&found);
+        group.bench_function(BenchmarkId::new("visibility", case.name), |b| {
+            b.iter(|| {
+                let situation = case.situation(next());
+                let (_, safe) = which();
+                let [_, after] = surfaces.place(&situation).unwrap();
+                sets.find(safe.candidates(), &model.actions, &model.sensor, after);
+                sets.set(0).len()
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(
+    benches,
+    local_decision,
+    combined_decision,
+    whole_decision,
+    parts
+);
+criterion_main!(benches);
