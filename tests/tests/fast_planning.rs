@@ -33,9 +33,9 @@ impl Plain<'_> {
         };
         let (now, after) = situation.surfaces().unwrap();
         let safe = SafeActions::find(&situation, &now, &after).unwrap();
-        let direct = DirectTrace::new(belief, &feature_motion, &model.noise, true).unwrap();
+        let mut direct = DirectTrace::new(belief, &feature_motion, &model.noise, true).unwrap();
         let sigma = model.noise.feature_measurement_sigma;
-        let trace = |control, pose| {
+        let mut trace = |control, pose| {
             let seen = features_seen_in_pose(&model.sensor, pose, &after);
             let seen: Vec<PlannedMeasurement> = seen
                 .into_iter()
