@@ -1,10 +1,17 @@
 //! A filter of 200 features: against the textbook, and the same on any number of threads.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "a helper that fails is a test that fails"
+)]
+
 mod common;
 #[path = "../benches/common/mod.rs"]
 mod synthetic;
 
-use adslam_estimator::{Belief, Ekf, Measurements, Parallelism, StructureMeasurements};
+use adslam_estimator::{
+    Belief, Ekf, Measurements, PairMeasurement, Parallelism, StructureMeasurements,
+};
 use adslam_models::{Control, FeatureId, POSE_DIM, State, feature_offset};
 use common::{NOISE, assert_close, covariance_matrix};
 use nalgebra::{DMatrix, DVector, Vector3, Vector6};
@@ -87,6 +94,22 @@ fn a_step_with_200_features_is_the_printed_one() {
     assert!(belief.covariance.is_positive_definite());
 }
 
+/// A chain around the object, and every seventh feature to the next seventh: no two pairs are the same.
+fn some_pairs(belief: &Belief) -> Vec<PairMeasurement> {
+    let points = &belief.state.features;
+    let count = points.len();
+    let chain = (1..count).map(|i| (i - 1, i));
+    let chords = (7..count).step_by(7).map(|i| (i - 7, i));
+    chain
+        .chain(chords)
+        .map(|(from, to)| PairMeasurement {
+            from: FeatureId(from),
+            to: FeatureId(to),
+            z: points[to] - points[from] + Vector3::new((to as f64).sin(), 0.2, -0.1) * 0.1,
+        })
+        .collect()
+}
+
 #[test]
 fn threads_change_no_bit() {
     let start = belief(CASE).unwrap();
@@ -95,6 +118,12 @@ fn threads_change_no_bit() {
         for _ in 0..3 {
             lively(&belief).run(ekf, &mut belief).unwrap();
         }
+        let pairs = some_pairs(&belief);
+        let measurements = Measurements {
+            features: &[],
+            structure: StructureMeasurements::Pairs(&pairs),
+        };
+        ekf.update(&mut belief, &measurements).unwrap();
         let bits: Vec<u64> = covariance_matrix(&belief)
             .iter()
             .map(|x| x.to_bits())
@@ -111,6 +140,33 @@ fn threads_change_no_bit() {
         let mut ekf = sequential.clone().with_parallelism(Parallelism::Rayon);
         let found = pool.install(|| run(&mut ekf));
         assert!(found == expected, "{threads} threads give another result");
+    }
+}
+
+/// More pairs than one block holds, and more than one graph in the same filter.
+#[test]
+fn a_graph_in_blocks_is_the_printed_update() {
+    let mut ekf = Ekf::new(NOISE).unwrap();
+    for features in [30, 12, 45] {
+        let case = Case {
+            name: "graph",
+            features,
+            seen: 5,
+        };
+        let mut belief = belief(case).unwrap();
+        let pairs = some_pairs(&belief);
+        let p = covariance_matrix(&belief);
+        let (state, p) = common::update(&belief.state, &p, &[], &pairs, &NOISE);
+        let measurements = Measurements {
+            features: &[],
+            structure: StructureMeasurements::Pairs(&pairs),
+        };
+        ekf.update(&mut belief, &measurements).unwrap();
+        assert_close(&covariance_matrix(&belief), &p, 1e-9);
+        assert!(belief.state.pose.minus(&state.pose).amax() < 1e-9);
+        for (a, b) in belief.state.features.iter().zip(&state.features) {
+            assert!((a - b).norm() < 1e-9, "feature {a} is {b} in the oracle");
+        }
     }
 }
 

@@ -1,4 +1,8 @@
 //! What steps and decisions allocate: nothing after the first. And the memory that they need at most.
+#![allow(
+    clippy::unwrap_used,
+    reason = "a helper that fails is a test that fails"
+)]
 
 #[path = "../benches/common/mod.rs"]
 mod synthetic;
