@@ -137,19 +137,19 @@ pub(crate) fn condition_on_features(
 fn set_products(covariance: &Covariance, block: &[Sighting], workspace: &mut Workspace) {
     let dim = covariance.dim();
     workspace.columns.reshape(dim, POSE_DIM);
-    workspace.selection.reshape(POSE_DIM, 3 * block.len());
+    workspace.of_pose.reshape(POSE_DIM, 3 * block.len());
     covariance.copy_columns(0, workspace.columns.as_mut(), Parallelism::Sequential);
     for (m, sighting) in block.iter().enumerate() {
         for a in 0..3 {
             for k in 0..POSE_DIM {
-                workspace.selection[(k, 3 * m + a)] = sighting.jacobian.pose[(a, k)];
+                workspace.of_pose[(k, 3 * m + a)] = sighting.jacobian.pose[(a, k)];
             }
         }
     }
     set_product(
         workspace.products.as_mut(),
         workspace.columns.as_ref(),
-        workspace.selection.as_ref(),
+        workspace.of_pose.as_ref(),
     );
     workspace.columns.reshape(dim, 3);
     for (m, sighting) in block.iter().enumerate() {

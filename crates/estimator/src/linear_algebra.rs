@@ -126,6 +126,22 @@ pub(crate) fn set_product(m: MatMut<'_, f64>, a: MatRef<'_, f64>, b: MatRef<'_, 
     matmul(m, Accum::Replace, a, b, 1.0, Par::Seq);
 }
 
+/// M ← Aᵀ A.
+pub(crate) fn set_gram(mut m: MatMut<'_, f64>, a: MatRef<'_, f64>) {
+    triangular::matmul(
+        m.rb_mut(),
+        BlockStructure::TriangularLower,
+        Accum::Replace,
+        a.transpose(),
+        BlockStructure::Rectangular,
+        a,
+        BlockStructure::Rectangular,
+        1.0,
+        Par::Seq,
+    );
+    mirror_lower(m, Parallelism::Sequential);
+}
+
 /// M ← M − A Bᵀ.
 pub(crate) fn subtract_product(
     m: MatMut<'_, f64>,

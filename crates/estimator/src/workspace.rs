@@ -24,7 +24,9 @@ pub(crate) struct Workspace {
     /// Vectors that change with the covariance, n × their number; the first is the correction δ so
     /// far.
     pub(crate) carried: Buffer,
-    /// Columns of Hᵀ, or what they are made of.
+    /// The pose's part of Hᵀ for a block of features, 6 × b.
+    pub(crate) of_pose: Buffer,
+    /// Combinations of P's columns, n × their number.
     pub(crate) selection: Buffer,
     /// Columns of P.
     pub(crate) columns: Buffer,
@@ -37,7 +39,7 @@ impl Workspace {
         // The largest block first, so that no other needs more.
         self.products.reshape(dim, block);
         self.innovation_covariance.reshape(block, block);
-        self.selection.reshape(POSE_DIM, block);
+        self.of_pose.reshape(POSE_DIM, block);
         self.growth.reshape(block, carried);
         self.carried.reshape(dim, carried);
         self.carried.fill(0.0);

@@ -1,6 +1,8 @@
 //! The planner's objective against the trace of Algorithm 1 as printed.
 
 mod common;
+#[path = "../benches/common/mod.rs"]
+mod synthetic;
 
 use adslam_estimator::{
     Belief, DirectTrace, EstimatorError, FeatureMeasurement, FilterNoise, PairMeasurement,
@@ -149,6 +151,30 @@ fn what_was_not_announced_cannot_be_seen() {
     assert!(matches!(error, EstimatorError::UnknownFeature { .. }));
     let unknown = [FeatureId(2)];
     assert!(PosteriorTrace::new(&belief, &motion, &NOISE, true, &unknown).is_err());
+}
+
+/// Sets of more features than one block holds, in a state whose covariance is cut into tiles.
+#[test]
+fn fast_is_direct_for_many_features() {
+    let case = synthetic::CASES[2];
+    let belief = synthetic::belief(case).unwrap();
+    let motion = vec![Vector3::new(0.1, -0.2, 0.05); case.features];
+    let seen: Vec<FeatureId> = (0..case.features).step_by(2).map(FeatureId).collect();
+    let control = Control {
+        rotation: Vector3::new(0.1, -0.2, 0.3),
+        translation: Vector3::new(0.3, 0.2, -0.1),
+    };
+    let mut fast = PosteriorTrace::new(&belief, &motion, &NOISE, true, &seen).unwrap();
+    let mut direct = DirectTrace::new(&belief, &motion, &NOISE, true).unwrap();
+    for visible in [&seen[..], &seen[40..57], &[]] {
+        let set = fast.add_set(visible).unwrap();
+        let trace = fast.after(&control, set).unwrap();
+        let expected = direct.after(&control, &isotropic(visible)).unwrap();
+        assert!(
+            (trace / expected - 1.0).abs() < 1e-9,
+            "{trace} is not {expected}"
+        );
+    }
 }
 
 #[test]

@@ -24,7 +24,7 @@ use super::pose_factor::set_cross_factor;
 use super::workspace::SetWorkspace;
 use crate::buffer::Buffer;
 use crate::ekf::check_feature;
-use crate::linear_algebra::{set_product, subtract_product};
+use crate::linear_algebra::{set_gram, set_product, subtract_product};
 use crate::{Covariance, EstimatorError, Parallelism};
 
 /// A 12 × 12 matrix over ξ.
@@ -112,7 +112,7 @@ impl SharedBlocks {
         let p_hat = p_hat.rb();
         self.squared.reshape(rows, rows);
         self.pj.reshape(rows, 6);
-        set_product(self.squared.as_mut(), p_hat.transpose(), p_hat);
+        set_gram(self.squared.as_mut(), p_hat);
         set_product(self.pj.as_mut(), p_hat.transpose(), self.j.as_ref());
         self.b.reshape(rows, rows);
         for (at, &feature) in seen.iter().enumerate() {
