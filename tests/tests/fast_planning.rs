@@ -37,9 +37,9 @@ impl Plain<'_> {
         let [now, after] = surfaces.place(&situation).unwrap();
         let mut safe = SafeActions::default();
         safe.find(&situation, [now, after]).unwrap();
-        let direct = DirectTrace::new(belief, &feature_motion, &model.noise, true).unwrap();
+        let mut direct = DirectTrace::new(belief, &feature_motion, &model.noise, true).unwrap();
         let sigma = model.noise.feature_measurement_sigma;
-        let trace = |control, pose| {
+        let mut trace = |control, pose| {
             let seen = features_seen_in_pose(&model.sensor, pose, after);
             let seen: Vec<PlannedMeasurement> = seen
                 .into_iter()

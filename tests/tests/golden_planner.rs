@@ -124,7 +124,7 @@ fn clear_candidates_and_objectives() {
         };
         let all: Vec<FeatureId> = (0..belief.state.features.len()).map(FeatureId).collect();
         let mut objective = PosteriorTrace::new(&belief, &motion, &noise, true, &all).unwrap();
-        let direct = DirectTrace::new(&belief, &motion, &noise, true).unwrap();
+        let mut direct = DirectTrace::new(&belief, &motion, &noise, true).unwrap();
         assert_eq!(at.actions.len(), at.trace.len());
         for (u, expected) in at.actions.iter().zip(&at.trace) {
             let control = Control {

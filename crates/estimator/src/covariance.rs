@@ -1,20 +1,28 @@
 //! The joint covariance: the one place where it changes.
 
 use adslam_models::{FeatureId, MotionJacobian, POSE_DIM, feature_offset, state_dim};
-use faer::{Mat, MatRef};
+use faer::{Mat, MatMut, MatRef};
 use nalgebra::{Matrix3, Matrix6};
 
-use crate::linear_algebra::{cholesky, mirror_lower, solve_lower, subtract_gram};
-use crate::{EstimatorError, FilterNoise};
+use crate::linear_algebra::{
+    cholesky, copy_transposed, mirror_lower, solve_lower, squared_norm, subtract_gram,
+    symmetric_times,
+};
+use crate::{EstimatorError, FilterNoise, Parallelism};
 
 /// P, the n × n covariance of the state's error (angles by difference, positions by difference, in
-/// the world), in rad², rad·cm and cm². Exactly symmetric at all times.
+/// the world), in rad², rad·cm and cm². Exactly symmetric outside an update.
 #[derive(Clone, Debug)]
 pub struct Covariance {
     matrix: Mat<f64>,
 }
 
 impl Covariance {
+    /// Of nothing: room for another's values.
+    pub(crate) fn empty() -> Self {
+        Self { matrix: Mat::new() }
+    }
+
     /// Independent blocks: the pose's, and `feature_sigma`² I for each of `feature_count` features.
     pub(crate) fn initial(pose: &Matrix6<f64>, feature_sigma: f64, feature_count: usize) -> Self {
         let mut matrix = Mat::zeros(state_dim(feature_count), state_dim(feature_count));
@@ -27,7 +35,7 @@ impl Covariance {
         for i in POSE_DIM..matrix.nrows() {
             matrix[(i, i)] = feature_sigma * feature_sigma;
         }
-        mirror_lower(&mut matrix);
+        mirror_lower(matrix.as_mut(), Parallelism::Sequential);
         Self { matrix }
     }
 
@@ -36,7 +44,7 @@ impl Covariance {
     #[must_use]
     pub fn from_lower(dim: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
         let mut matrix = Mat::from_fn(dim, dim, |i, j| if i >= j { entry(i, j) } else { 0.0 });
-        mirror_lower(&mut matrix);
+        mirror_lower(matrix.as_mut(), Parallelism::Sequential);
         Self { matrix }
     }
 
@@ -64,7 +72,8 @@ impl Covariance {
     /// Covariance of the pose in the order (roll, pitch, yaw, x, y, z).
     #[must_use]
     pub fn pose(&self) -> Matrix6<f64> {
-        Matrix6::from_fn(|i, j| self.matrix[(i, j)])
+        // The lower triangle is right at all times, also between the parts of an update.
+        Matrix6::from_fn(|i, j| self.matrix[(i.max(j), i.min(j))])
     }
 
     /// Covariance of one feature, cm².
@@ -112,12 +121,75 @@ impl Covariance {
         cholesky(factor.as_mut(), "covariance")?;
         let mut whitened = Mat::from_fn(error.len(), 1, |i, _| error[i]);
         solve_lower(factor.as_ref(), whitened.as_mut());
-        Ok(crate::linear_algebra::squared_norm(whitened.as_ref()))
+        Ok(squared_norm(whitened.as_ref()))
     }
 
     /// The whole matrix.
     pub(crate) fn matrix(&self) -> MatRef<'_, f64> {
         self.matrix.as_ref()
+    }
+
+    /// P − V Vᵀ with V = P Hᵀ L⁻ᵀ and L Lᵀ = S: the update of Algorithm 1 with K = P Hᵀ S⁻¹, on the lower
+    /// triangle alone. [`Self::complete`] must follow, after any number of these.
+    pub(crate) fn subtract_gram(&mut self, v: MatRef<'_, f64>, parallelism: Parallelism) {
+        subtract_gram(self.matrix.as_mut(), v, parallelism);
+    }
+
+    /// Makes the matrix symmetric again after its lower triangle changed.
+    ///
+    /// # Errors
+    /// [`EstimatorError::BadVariance`] where the result has no meaning as a covariance.
+    pub(crate) fn complete(&mut self, parallelism: Parallelism) -> Result<(), EstimatorError> {
+        mirror_lower(self.matrix.as_mut(), parallelism);
+        self.check_variances()
+    }
+
+    /// Each variance must be finite and not negative.
+    pub(crate) fn check_variances(&self) -> Result<(), EstimatorError> {
+        for index in 0..self.dim() {
+            let value = self.matrix[(index, index)];
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(EstimatorError::BadVariance { index, value });
+            }
+        }
+        Ok(())
+    }
+
+    /// Y ← P X, from the lower triangle.
+    pub(crate) fn times(&self, x: MatRef<'_, f64>, y: MatMut<'_, f64>, parallelism: Parallelism) {
+        symmetric_times(self.matrix.as_ref(), x, y, parallelism);
+    }
+
+    /// Takes over another covariance's lower triangle in memory that is kept.
+    pub(crate) fn copy_lower(&mut self, other: &Self) {
+        self.matrix
+            .resize_with(other.dim(), other.dim(), |_, _| 0.0);
+        for column in 0..other.dim() {
+            let from = &other.matrix.col_as_slice(column)[column..];
+            self.matrix.col_as_slice_mut(column)[column..].copy_from_slice(from);
+        }
+    }
+
+    /// Copies whole columns, `first` and those after it, as many as `columns` has, out of the lower
+    /// triangle.
+    pub(crate) fn copy_columns(
+        &self,
+        first: usize,
+        columns: MatMut<'_, f64>,
+        parallelism: Parallelism,
+    ) {
+        let (dim, width) = (self.dim(), columns.ncols());
+        let end = first + width;
+        let (above, rest) = columns.split_at_row_mut(first);
+        let (mut diagonal, mut below) = rest.split_at_row_mut(width);
+        copy_transposed(
+            above,
+            self.matrix.submatrix(first, 0, width, first),
+            parallelism,
+        );
+        diagonal.copy_from_triangular_lower(self.matrix.submatrix(first, first, width, width));
+        mirror_lower(diagonal, Parallelism::Sequential);
+        below.copy_from(self.matrix.submatrix(end, first, dim - end, width));
     }
 
     /// F P Fᵀ + Q, F = diag(`pose_jacobian`, I): the propagation of Algorithm 1. Only the pose's
@@ -129,11 +201,14 @@ impl Covariance {
             let moved = pose_jacobian * row;
             for k in 0..POSE_DIM {
                 self.matrix[(i, k)] = moved[k];
+                self.matrix[(k, i)] = moved[k];
             }
+            self.matrix[(i, i)] += noise.feature_motion_sigma * noise.feature_motion_sigma;
         }
         for j in 0..POSE_DIM {
             for i in j..POSE_DIM {
                 self.matrix[(i, j)] = pose[(i, j)];
+                self.matrix[(j, i)] = pose[(i, j)];
             }
             let sigma = if j < 3 {
                 noise.rotation_sigma
@@ -142,24 +217,5 @@ impl Covariance {
             };
             self.matrix[(j, j)] += sigma * sigma;
         }
-        for i in POSE_DIM..self.dim() {
-            self.matrix[(i, i)] += noise.feature_motion_sigma * noise.feature_motion_sigma;
-        }
-        mirror_lower(&mut self.matrix);
-    }
-
-    /// P − WᵀW, W = L⁻¹HP with LLᵀ = S: the update of Algorithm 1 with K = PHᵀS⁻¹.
-    ///
-    /// # Errors
-    /// [`EstimatorError::BadVariance`] where the result has no meaning as a covariance.
-    pub(crate) fn reduce_by(&mut self, whitened: MatRef<'_, f64>) -> Result<(), EstimatorError> {
-        subtract_gram(&mut self.matrix, whitened);
-        for index in 0..self.dim() {
-            let value = self.matrix[(index, index)];
-            if !(value.is_finite() && value >= 0.0) {
-                return Err(EstimatorError::BadVariance { index, value });
-            }
-        }
-        Ok(())
     }
 }

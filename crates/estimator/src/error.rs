@@ -62,6 +62,12 @@ pub enum EstimatorError {
     /// A planned measurement of a feature that was not announced as visible.
     #[error("{0} is not among the features that the decision was prepared for")]
     NotPlanned(FeatureId),
+    /// The planner's objective was asked before a decision was prepared, or after preparing failed.
+    #[error("no decision is prepared; call `prepare` before asking about sets and actions")]
+    NotPrepared,
+    /// A set of visible features that was added in an earlier decision.
+    #[error("the set of visible features is not of this decision; add it anew after `prepare`")]
+    SetOfAnotherDecision,
     /// A noise sigma that cannot be used.
     #[error("the sigma of {what} is {value}; it must be {requirement}")]
     BadSigma {

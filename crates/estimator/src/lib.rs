@@ -8,6 +8,7 @@
 //! All units are cm and radians.
 
 mod belief;
+mod buffer;
 mod covariance;
 mod ekf;
 mod error;
@@ -15,7 +16,9 @@ mod feature_update;
 mod linear_algebra;
 mod noise;
 mod objective;
+mod parallel;
 mod structure_update;
+mod workspace;
 
 pub use belief::Belief;
 pub use covariance::Covariance;
@@ -23,4 +26,5 @@ pub use ekf::{Ekf, FeatureMeasurement, Measurements};
 pub use error::EstimatorError;
 pub use noise::FilterNoise;
 pub use objective::{DirectTrace, PlannedMeasurement, PosteriorTrace, SetId};
+pub use parallel::Parallelism;
 pub use structure_update::{PairMeasurement, StructureMeasurements};

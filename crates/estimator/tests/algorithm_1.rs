@@ -101,7 +101,7 @@ proptest! {
         let p = covariance_matrix(&belief);
         let (state, p) = common::update(&belief.state, &p, &features, &pairs, &NOISE);
         let mut from_list = belief.clone();
-        let ekf = Ekf::new(NOISE)?;
+        let mut ekf = Ekf::new(NOISE)?;
         let structure = StructureMeasurements::AllPairsSummed(&sums);
         ekf.update(&mut belief, &Measurements { features: &features, structure })?;
         check_equal(&belief, &state, &p);
@@ -131,7 +131,7 @@ proptest! {
             (0..10u8).map(|i| Point3::new(f64::from(i), f64::from(i * i % 7), f64::from(i % 3))).collect();
         let mut belief =
             Belief::initial(Pose::default(), features, &Matrix6::zeros(), 0.02)?;
-        let ekf = Ekf::new(noise)?;
+        let mut ekf = Ekf::new(noise)?;
         for (control, visible, errors) in &steps {
             // A tenth of the motion, so that a run stays near the object.
             let slow = Control { rotation: control.rotation * 0.1, translation: control.translation * 0.1 };
@@ -155,12 +155,12 @@ fn measurements_that_cannot_be_used_are_refused() {
     let features = vec![Point3::new(1.0, 0.0, 0.0), Point3::new(2.0, 1.0, 0.0)];
     let fresh =
         || Belief::initial(Pose::default(), features.clone(), &Matrix6::identity(), 0.1).unwrap();
-    let ekf = Ekf::new(NOISE).unwrap();
+    let mut ekf = Ekf::new(NOISE).unwrap();
     let seen = |id: usize, z: f64| FeatureMeasurement {
         feature: FeatureId(id),
         z: Vector3::repeat(z),
     };
-    let update = |features: &[FeatureMeasurement], structure| {
+    let mut update = |features: &[FeatureMeasurement], structure| {
         ekf.update(
             &mut fresh(),
             &Measurements {

@@ -1,6 +1,8 @@
 //! The planner's objective against the trace of Algorithm 1 as printed.
 
 mod common;
+#[path = "../benches/common/mod.rs"]
+mod synthetic;
 
 use adslam_estimator::{
     Belief, DirectTrace, EstimatorError, FeatureMeasurement, FilterNoise, PairMeasurement,
@@ -77,7 +79,7 @@ proptest! {
     ) {
         let seen: Vec<FeatureId> = (0..COUNT).rev().map(FeatureId).collect();
         let mut fast = PosteriorTrace::new(&belief, &motion, &NOISE, with_structure, &seen)?;
-        let direct = DirectTrace::new(&belief, &motion, &NOISE, with_structure)?;
+        let mut direct = DirectTrace::new(&belief, &motion, &NOISE, with_structure)?;
         for (control, visible) in &actions {
             let measurements = isotropic(visible);
             let expected =
@@ -107,7 +109,7 @@ proptest! {
                 PlannedMeasurement { feature, covariance }
             })
             .collect();
-        let direct = DirectTrace::new(&belief, &motion, &NOISE, true)?;
+        let mut direct = DirectTrace::new(&belief, &motion, &NOISE, true)?;
         let trace = direct.after(&control, &measurements)?;
         let expected = textbook(&belief, &NOISE, &motion, true, &control, &measurements);
         prop_assert!((trace / expected - 1.0).abs() < 1e-9, "{trace} is not {expected}");
@@ -149,4 +151,92 @@ fn what_was_not_announced_cannot_be_seen() {
     assert!(matches!(error, EstimatorError::UnknownFeature { .. }));
     let unknown = [FeatureId(2)];
     assert!(PosteriorTrace::new(&belief, &motion, &NOISE, true, &unknown).is_err());
+}
+
+/// Sets of more features than one block holds, in a state whose covariance is cut into tiles.
+#[test]
+fn fast_is_direct_for_many_features() {
+    let case = synthetic::CASES[2];
+    let belief = synthetic::belief(case).unwrap();
+    let motion = vec![Vector3::new(0.1, -0.2, 0.05); case.features];
+    let seen: Vec<FeatureId> = (0..case.features).step_by(2).map(FeatureId).collect();
+    let control = Control {
+        rotation: Vector3::new(0.1, -0.2, 0.3),
+        translation: Vector3::new(0.3, 0.2, -0.1),
+    };
+    let mut fast = PosteriorTrace::new(&belief, &motion, &NOISE, true, &seen).unwrap();
+    let mut direct = DirectTrace::new(&belief, &motion, &NOISE, true).unwrap();
+    for visible in [&seen[..], &seen[40..57], &[]] {
+        let set = fast.add_set(visible).unwrap();
+        let trace = fast.after(&control, set).unwrap();
+        let expected = direct.after(&control, &isotropic(visible)).unwrap();
+        assert!(
+            (trace / expected - 1.0).abs() < 1e-9,
+            "{trace} is not {expected}"
+        );
+    }
+}
+
+#[test]
+fn a_decision_that_is_not_prepared_answers_nothing() {
+    let features = vec![Point3::new(1.0, 0.0, 0.0), Point3::new(2.0, 1.0, 0.0)];
+    let belief = Belief::initial(Pose::default(), features, &Matrix6::identity(), 0.1).unwrap();
+    let motion = [Vector3::zeros(); 2];
+    let (control, seen) = (Control::default(), [FeatureId(0), FeatureId(1)]);
+    let mut fast = PosteriorTrace::default();
+    assert_eq!(fast.add_set(&[]), Err(EstimatorError::NotPrepared));
+    fast.prepare(&belief, &motion, &NOISE, true, &seen).unwrap();
+    let first = fast.add_set(&seen).unwrap();
+    fast.after(&control, first).unwrap();
+
+    fast.prepare(&belief, &motion, &NOISE, true, &seen).unwrap();
+    fast.add_set(&[]).unwrap();
+    let forgotten = fast.after(&control, first);
+    assert_eq!(forgotten, Err(EstimatorError::SetOfAnotherDecision));
+
+    let unknown = [FeatureId(2)];
+    assert!(
+        fast.prepare(&belief, &motion, &NOISE, true, &unknown)
+            .is_err()
+    );
+    let after_failure = fast.after(&control, first);
+    assert_eq!(after_failure, Err(EstimatorError::NotPrepared));
+
+    let mut direct = DirectTrace::default();
+    let unprepared = direct.after(&control, &[]);
+    assert_eq!(unprepared, Err(EstimatorError::NotPrepared));
+    direct.prepare(&belief, &motion, &NOISE, true).unwrap();
+    direct.after(&control, &isotropic(&seen)).unwrap();
+    assert!(direct.prepare(&belief, &motion[1..], &NOISE, true).is_err());
+    let after_failure = direct.after(&control, &[]);
+    assert_eq!(after_failure, Err(EstimatorError::NotPrepared));
+}
+
+proptest! {
+    /// What an earlier decision left behind, of whatever size, changes nothing.
+    #[test]
+    fn a_decision_is_the_same_in_memory_that_was_used(
+        beliefs in (common::belief(COUNT), common::belief(3), common::belief(COUNT)),
+        visible in common::some_features(COUNT),
+        control in common::control(),
+        motion in common::vectors(COUNT, 0.3)
+    ) {
+        let measurements = isotropic(&visible);
+        let (mut used, mut used_direct) = (PosteriorTrace::default(), DirectTrace::default());
+        for belief in [beliefs.0, beliefs.1, beliefs.2] {
+            let count = belief.state.features.len();
+            let motion = &motion[..count];
+            let seen: Vec<FeatureId> = visible.iter().copied().filter(|f| f.0 < count).collect();
+            let measurements: Vec<PlannedMeasurement> =
+                measurements.iter().copied().filter(|m| m.feature.0 < count).collect();
+            used.prepare(&belief, motion, &NOISE, true, &seen)?;
+            let mut fresh = PosteriorTrace::new(&belief, motion, &NOISE, true, &seen)?;
+            let (a, b) = (used.add_set(&seen)?, fresh.add_set(&seen)?);
+            prop_assert_eq!(used.after(&control, a)?, fresh.after(&control, b)?);
+            used_direct.prepare(&belief, motion, &NOISE, true)?;
+            let mut fresh = DirectTrace::new(&belief, motion, &NOISE, true)?;
+            let expected = fresh.after(&control, &measurements)?;
+            prop_assert_eq!(used_direct.after(&control, &measurements)?, expected);
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! Decisions of the local and the combined planner, on situations from runs of the shipped scenarios.
 //!
 //! `local_decision` and `combined_decision` time the scoring alone, of candidates whose visible sets are
-//! known; `whole_decision` all that a planner does for one step, and `parts` what is in it besides.
+//! known; `whole_decision` all that a planner does for one step, and `decision_parts` what is in it besides.
 //! Variants: `fast`, the objective by visible sets; `direct`, an ordinary dense update of the
 //! whole covariance for each action; `textbook`, every row stacked and S inverted.
 #![allow(
@@ -12,7 +12,10 @@
 #[path = "../../estimator/tests/common/mod.rs"]
 mod textbook;
 
-use std::hint::black_box;
+use std::cell::LazyCell;
+use std::fs;
+use std::path::Path;
+use std::sync::{LazyLock, OnceLock};
 use std::time::Duration;
 
 use adslam_estimator::{
@@ -36,36 +39,36 @@ use nalgebra::{Point3, Vector3};
 const STEPS: [usize; 5] = [5, 10, 15, 20, 25];
 const SEED: u64 = 1;
 
+/// A scenario and moments of runs of it, made when a benchmark that is not filtered out asks.
 struct Case {
     name: &'static str,
-    setup: Setup,
+    file: &'static str,
+    features: Option<usize>,
+    setup: OnceLock<Setup>,
+    moments: [OnceLock<Vec<Moment>>; 4],
 }
+
+static CASES: LazyLock<[Case; 4]> = LazyLock::new(|| {
+    let case = |name, file, features| Case {
+        name,
+        file,
+        features,
+        setup: OnceLock::new(),
+        moments: Default::default(),
+    };
+    [
+        case("polygon", "polygon.toml", None),
+        case("heart50", "heart.toml", None),
+        case("heart200", "heart.toml", Some(200)),
+        case("heart500", "heart.toml", Some(500)),
+    ]
+});
 
 /// What a planner knew at one step.
 struct Moment {
     belief: Belief,
     feature_motion: Vec<Vector3<f64>>,
     goal: Option<Point3<f64>>,
-}
-
-fn cases() -> Vec<Case> {
-    let case = |name, file: &str, features: Option<usize>| {
-        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-        let path = std::path::Path::new(root).join("scenarios").join(file);
-        let mut text = std::fs::read_to_string(&path).unwrap();
-        if let Some(features) = features {
-            assert!(text.contains("features = 50"));
-            text = text.replace("features = 50", &format!("features = {features}"));
-        }
-        let setup = Setup::new(&Scenario::parse(&text, &path).unwrap()).unwrap();
-        Case { name, setup }
-    };
-    vec![
-        case("polygon", "polygon.toml", None),
-        case("heart50", "heart.toml", None),
-        case("heart200", "heart.toml", Some(200)),
-        case("heart500", "heart.toml", Some(500)),
-    ]
 }
 
 struct Recorder<'a> {
@@ -91,29 +94,44 @@ impl Observer for Recorder<'_> {
 }
 
 impl Case {
-    fn moments(&self, planner: PlannerName) -> Vec<Moment> {
-        let mut recorder = Recorder {
-            setup: &self.setup,
-            moments: Vec::new(),
-        };
-        let interrupt = Interrupt::new();
-        // It ends with the last of the steps.
-        let _ = simulate(&self.setup, planner, SEED, &interrupt, &mut recorder);
-        assert_eq!(recorder.moments.len(), STEPS.len());
-        recorder.moments
+    fn setup(&self) -> &Setup {
+        self.setup.get_or_init(|| {
+            let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+            let path = Path::new(root).join("scenarios").join(self.file);
+            let mut text = fs::read_to_string(&path).unwrap();
+            if let Some(features) = self.features {
+                assert!(text.contains("features = 50"));
+                text = text.replace("features = 50", &format!("features = {features}"));
+            }
+            Setup::new(&Scenario::parse(&text, &path).unwrap()).unwrap()
+        })
+    }
+
+    fn moments(&self, planner: PlannerName) -> &[Moment] {
+        self.moments[planner as usize].get_or_init(|| {
+            let mut recorder = Recorder {
+                setup: self.setup(),
+                moments: Vec::new(),
+            };
+            let interrupt = Interrupt::new();
+            // The recorder ends it after the last of the steps.
+            let _ = simulate(self.setup(), planner, SEED, &interrupt, &mut recorder);
+            assert_eq!(recorder.moments.len(), STEPS.len());
+            recorder.moments
+        })
     }
 
     fn situation<'a>(&'a self, moment: &'a Moment) -> Situation<'a> {
         Situation {
             belief: &moment.belief,
             feature_motion: &moment.feature_motion,
-            model: &self.setup.planning,
+            model: &self.setup().planning,
             time_is_up: None,
         }
     }
 
     fn noise(&self, planner: PlannerName) -> PlanningNoise {
-        let scenario = &self.setup.scenario;
+        let scenario = &self.setup().scenario;
         PlanningNoise {
             feature_measurement_sigma: Some(match planner {
                 PlannerName::Combined => scenario.combined_planning_sigma_cm(),
@@ -137,7 +155,7 @@ impl Candidates {
         let [now, after] = surfaces.place(&situation).unwrap();
         safe.find(&situation, [now, after]).unwrap();
         if let Some(goal) = &moment.goal {
-            let nearest = case.setup.scenario.planners.combined.nearest();
+            let nearest = case.setup().scenario.planners.combined.nearest();
             let nearest = match nearest {
                 adslam_experiment::scenario::Nearest::Fraction(share) => Nearest::Fraction(share),
                 adslam_experiment::scenario::Nearest::Count(count) => Nearest::Count(count),
@@ -146,7 +164,7 @@ impl Candidates {
         } else {
             assert_eq!(planner, PlannerName::Local);
         }
-        let model = &case.setup.planning;
+        let model = &case.setup().planning;
         let mut sets = VisibleSets::default();
         sets.find(safe.candidates(), &model.actions, &model.sensor, after);
         let seen = (0..safe.candidates().len())
@@ -161,12 +179,15 @@ impl Candidates {
 }
 
 fn direct(
+    objective: &mut DirectTrace,
     moment: &Moment,
     noise: &FilterNoise,
     candidates: &Candidates,
     planned: &mut Vec<PlannedMeasurement>,
 ) -> f64 {
-    let objective = DirectTrace::new(&moment.belief, &moment.feature_motion, noise, true).unwrap();
+    objective
+        .prepare(&moment.belief, &moment.feature_motion, noise, true)
+        .unwrap();
     let mut best = f64::INFINITY;
     for (candidate, seen) in candidates.safe.candidates().iter().zip(&candidates.seen) {
         planned.clear();
@@ -225,44 +246,41 @@ fn in_turn<'a, T>(all: &'a [T]) -> impl FnMut() -> &'a T {
 
 fn scoring(c: &mut Criterion, name: &str, planner: PlannerName) {
     let mut group = group(c, name);
-    for case in &cases() {
+    for case in &*CASES {
         let noise = case.noise(planner);
-        let noise_over = noise.over(&case.setup.planning.noise);
-        let moments: Vec<(Moment, Candidates)> = case
-            .moments(planner)
-            .into_iter()
-            .map(|moment| {
-                let candidates = Candidates::of(case, planner, &moment);
-                (moment, candidates)
-            })
-            .collect();
+        let candidates = LazyCell::new(|| -> Vec<(&Moment, Candidates)> {
+            let of = |moment| (moment, Candidates::of(case, planner, moment));
+            case.moments(planner).iter().map(of).collect()
+        });
 
-        let mut next = in_turn(&moments);
-        let mut scorer = ActionScorer::new(noise);
         group.bench_function(BenchmarkId::new("fast", case.name), |b| {
+            let mut next = in_turn(&candidates);
+            let mut scorer = ActionScorer::new(noise);
             b.iter(|| {
                 let (moment, candidates) = next();
                 let safe = candidates.safe.candidates();
                 let best = scorer.best(&case.situation(moment), safe, &candidates.sets);
-                black_box(best.unwrap().unwrap().trace)
+                best.unwrap().unwrap().trace
             });
         });
 
-        let mut next = in_turn(&moments);
-        let mut planned = Vec::new();
         group.bench_function(BenchmarkId::new("direct", case.name), |b| {
+            let mut next = in_turn(&candidates);
+            let noise = noise.over(&case.setup().planning.noise);
+            let (mut objective, mut planned) = (DirectTrace::default(), Vec::new());
             b.iter(|| {
                 let (moment, candidates) = next();
-                black_box(direct(moment, &noise_over, candidates, &mut planned))
+                direct(&mut objective, moment, &noise, candidates, &mut planned)
             });
         });
 
         if case.name == "polygon" {
-            let mut next = in_turn(&moments);
             group.bench_function(BenchmarkId::new("textbook", case.name), |b| {
+                let mut next = in_turn(&candidates);
+                let noise = noise.over(&case.setup().planning.noise);
                 b.iter(|| {
                     let (moment, candidates) = next();
-                    black_box(textbook(moment, &noise_over, candidates))
+                    textbook(moment, &noise, candidates)
                 });
             });
         }
@@ -280,17 +298,17 @@ fn combined_decision(c: &mut Criterion) {
 
 fn whole_decision(c: &mut Criterion) {
     let mut group = group(c, "whole_decision");
-    for case in &cases() {
+    for case in &*CASES {
         for planner in [
             PlannerName::Local,
             PlannerName::Combined,
             PlannerName::Global,
         ] {
-            let moments = case.moments(planner);
-            let mut next = in_turn(&moments);
-            let belief = &moments[0].belief;
-            let (mut decider, _) = build_planner(&case.setup, planner, belief, SEED).unwrap();
             group.bench_function(BenchmarkId::new(planner.to_string(), case.name), |b| {
+                let moments = case.moments(planner);
+                let mut next = in_turn(moments);
+                let belief = &moments[0].belief;
+                let (mut decider, _) = build_planner(case.setup(), planner, belief, SEED).unwrap();
                 b.iter(|| decider.decide(&case.situation(next())).unwrap());
             });
         }
@@ -298,15 +316,12 @@ fn whole_decision(c: &mut Criterion) {
     group.finish();
 }
 
-fn parts(c: &mut Criterion) {
-    let mut group = group(c, "parts");
-    for case in &cases() {
-        let moments = case.moments(PlannerName::Local);
-        let model = &case.setup.planning;
-        let (mut surfaces, mut safe) = (ObjectSurfaces::default(), SafeActions::default());
-
-        let mut next = in_turn(&moments);
+fn decision_parts(c: &mut Criterion) {
+    let mut group = group(c, "decision_parts");
+    for case in &*CASES {
         group.bench_function(BenchmarkId::new("clearance", case.name), |b| {
+            let mut next = in_turn(case.moments(PlannerName::Local));
+            let (mut surfaces, mut safe) = (ObjectSurfaces::default(), SafeActions::default());
             b.iter(|| {
                 let situation = case.situation(next());
                 let placed = surfaces.place(&situation).unwrap();
@@ -315,25 +330,20 @@ fn parts(c: &mut Criterion) {
             });
         });
 
-        let mut next = in_turn(&moments);
-        let mut sets = VisibleSets::default();
-        let found: Vec<(ObjectSurfaces, SafeActions)> = moments
-            .iter()
-            .map(|moment| {
-                let (mut surfaces, mut safe) = Default::default();
-                let situation = case.situation(moment);
-                let placed = ObjectSurfaces::place(&mut surfaces, &situation).unwrap();
-                SafeActions::find(&mut safe, &situation, placed).unwrap();
-                (surfaces, safe)
-            })
-            .collect();
-        let mut which = in_turn(&found);
         group.bench_function(BenchmarkId::new("visibility", case.name), |b| {
+            let moments = case.moments(PlannerName::Local);
+            let candidates: Vec<(&Moment, Candidates)> = moments
+                .iter()
+                .map(|moment| (moment, Candidates::of(case, PlannerName::Local, moment)))
+                .collect();
+            let mut next = in_turn(&candidates);
+            let model = &case.setup().planning;
+            let (mut surfaces, mut sets) = (ObjectSurfaces::default(), VisibleSets::default());
             b.iter(|| {
-                let situation = case.situation(next());
-                let (_, safe) = which();
-                let [_, after] = surfaces.place(&situation).unwrap();
-                sets.find(safe.candidates(), &model.actions, &model.sensor, after);
+                let (moment, candidates) = next();
+                let [_, after] = surfaces.place(&case.situation(moment)).unwrap();
+                let safe = candidates.safe.candidates();
+                sets.find(safe, &model.actions, &model.sensor, after);
                 sets.set(0).len()
             });
         });
@@ -346,6 +356,6 @@ criterion_group!(
     local_decision,
     combined_decision,
     whole_decision,
-    parts
+    decision_parts
 );
 criterion_main!(benches);

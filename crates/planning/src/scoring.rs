@@ -30,6 +30,7 @@ impl PlanningNoise {
 #[derive(Clone, Debug, Default)]
 pub struct ActionScorer {
     noise: PlanningNoise,
+    objective: PosteriorTrace,
     ids: Vec<FeatureId>,
     /// The sets computed so far: where in `sets` each stands, and where in the objective.
     computed: Vec<(usize, SetId)>,
@@ -77,7 +78,7 @@ impl ActionScorer {
     ) -> Result<Option<Score>, PlanningError> {
         let model = situation.model;
         sets.union(&mut self.ids);
-        let mut objective = PosteriorTrace::new(
+        self.objective.prepare(
             situation.belief,
             situation.feature_motion,
             &self.noise.over(&model.noise),
@@ -107,7 +108,7 @@ impl ActionScorer {
                     pose,
                 } = candidates[place];
                 if let Some(wider) = wider
-                    && objective.after(&control, wider)? > smallest * MARGIN
+                    && self.objective.after(&control, wider)? > smallest * MARGIN
                 {
                     continue;
                 }
@@ -115,12 +116,12 @@ impl ActionScorer {
                     Some(set) => set,
                     None => {
                         VisibleSets::features(set, &mut self.ids);
-                        let added = objective.add_set(&self.ids)?;
+                        let added = self.objective.add_set(&self.ids)?;
                         self.computed.push((group[0], added));
                         *entered.insert(added)
                     }
                 };
-                let trace = objective.after(&control, set)?;
+                let trace = self.objective.after(&control, set)?;
                 self.scores.push(Score { index, pose, trace });
                 smallest = smallest.min(trace);
             }

@@ -73,8 +73,13 @@ impl Clearance {
                     || distance_to_triangle(end, surface.corners(face.face)) > clearance
             })
         });
-        self.fan
-            .free(surface, start, ends, self.clear.iter().copied())
+        let free = self
+            .fan
+            .free(surface, start, ends, self.clear.iter().copied());
+        self.clear.clear();
+        self.clear.extend_from_slice(free);
+        self.clear.sort_unstable();
+        &self.clear
     }
 
     fn find_near(&mut self, surface: &Surface, start: &Point, reach: f64) {

@@ -35,8 +35,8 @@ pub struct Fan {
 
 impl Fan {
     /// Of the surface points numbered in `targets`, those to which a sensor at `sensor` (world, cm)
-    /// has a line of sight, in their order: as [`Surface::sees`] says for each. Allocates only when a
-    /// fan has more segments than any before it.
+    /// has a line of sight, in any order: as [`Surface::sees`] says for each. Allocates only when a fan
+    /// has more segments than any before it.
     pub fn seen(
         &mut self,
         surface: &Surface,
@@ -60,7 +60,7 @@ impl Fan {
     }
 
     /// Of the `ends` (world, cm) numbered in `targets` those that the straight way from `start` reaches
-    /// without touching the surface, in their order: where [`Surface::crosses`] says no.
+    /// without touching the surface, in any order: where [`Surface::crosses`] says no.
     pub fn free(
         &mut self,
         surface: &Surface,
@@ -100,11 +100,11 @@ impl Fan {
             if arch.dispatch(|| view.clearness(lists, clearness)) < -view.rounding {
                 continue;
             }
-            self.keep(|id, clearness| {
-                clearness < -view.rounding
-                    || exempt(numbers, id)
-                    || (clearness <= view.rounding
-                        && !segment_touches_triangle(from, &ends[id], corners))
+            self.close(|id, clearness| {
+                clearness >= -view.rounding
+                    && !exempt(numbers, id)
+                    && (clearness > view.rounding
+                        || segment_touches_triangle(from, &ends[id], corners))
             });
         }
     }
@@ -128,21 +128,20 @@ impl Fan {
         (around, size)
     }
 
-    /// Keeps the open segments for which `stays`, given the number of the end and the clearness.
-    fn keep(&mut self, mut stays: impl FnMut(usize, f64) -> bool) {
-        let mut kept = 0;
-        for at in 0..self.open.len() {
-            let id = self.open[at];
-            if stays(id, self.clearness[at]) {
-                self.open[kept] = id;
+    /// Closes the open segments for which `touches` holds, given the number of the end and the clearness;
+    /// the order of the others changes.
+    fn close(&mut self, mut touches: impl FnMut(usize, f64) -> bool) {
+        // From the end, so that what takes the place of a closed one has been looked at.
+        for at in (0..self.open.len()).rev() {
+            if touches(self.open[at], self.clearness[at]) {
+                self.open.swap_remove(at);
+                let last = self.open.len();
                 for list in &mut self.ends {
-                    list[kept] = list[at];
+                    list[at] = list[last];
                 }
-                kept += 1;
             }
         }
-        self.open.truncate(kept);
-        let filled = kept.next_multiple_of(LANES);
+        let filled = self.open.len().next_multiple_of(LANES);
         for list in &mut self.ends {
             list.truncate(filled);
         }

@@ -1,16 +1,13 @@
 //! The objective by one dense update for each action.
 
-use adslam_models::{
-    Control, FeatureId, Pose, feature_measurement_jacobians, feature_offset, motion_jacobian,
-    predicted_pose,
-};
-use faer::Mat;
+use adslam_models::{Control, FeatureId, Pose, motion_jacobian, predicted_pose};
 use nalgebra::{Matrix3, Vector3};
 
 use super::prior::DecisionPrior;
 use crate::ekf::check_feature;
-use crate::linear_algebra::{cholesky, solve_lower};
-use crate::{Belief, EstimatorError, FilterNoise};
+use crate::feature_update::{Sighting, condition_on_features};
+use crate::workspace::Workspace;
+use crate::{Belief, Covariance, EstimatorError, FilterNoise, Parallelism};
 
 /// A measurement that is expected after an action.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,25 +32,62 @@ impl PlannedMeasurement {
 
 /// trace(Pₙ₊₁) for one action after another, each by one dense update that forms the whole posterior
 /// covariance: the path for noise that is not isotropic.
+///
+/// It is the filter's own update with features: for k of them and n entries of the state about 3n²k
+/// multiplications and additions an action. It keeps its memory from decision to decision.
 #[derive(Clone, Debug)]
 pub struct DirectTrace {
     prior: DecisionPrior,
+    /// Of the action asked for last; the lower triangle counts.
+    posterior: Covariance,
+    sightings: Vec<Sighting>,
+    workspace: Workspace,
+}
+
+/// With no decision prepared.
+impl Default for DirectTrace {
+    fn default() -> Self {
+        Self {
+            prior: DecisionPrior::default(),
+            posterior: Covariance::empty(),
+            sightings: Vec::new(),
+            workspace: Workspace::default(),
+        }
+    }
 }
 
 impl DirectTrace {
-    /// Prepares the decision: the belief at step n, what is known of the features' motion to step
-    /// n + 1 (cm, world), the noise to assume, and whether all pairs of features will be measured.
+    /// The objective of one decision, see [`Self::prepare`].
     ///
     /// # Errors
-    /// Inputs that do not fit the belief, or a covariance that has broken down.
+    /// Those of [`Self::prepare`].
     pub fn new(
         belief: &Belief,
         feature_motion: &[Vector3<f64>],
         noise: &FilterNoise,
         with_structure: bool,
     ) -> Result<Self, EstimatorError> {
-        let prior = DecisionPrior::new(belief, feature_motion, noise, with_structure)?;
-        Ok(Self { prior })
+        let mut objective = Self::default();
+        objective.prepare(belief, feature_motion, noise, with_structure)?;
+        Ok(objective)
+    }
+
+    /// Starts a decision: the belief at step n, what is known of the features' motion to step n + 1
+    /// (cm, world), the noise to assume, and whether all pairs of features will be measured. What was
+    /// prepared before is forgotten, its memory kept.
+    ///
+    /// # Errors
+    /// Inputs that do not fit the belief, or a covariance that has broken down; nothing is prepared then.
+    pub fn prepare(
+        &mut self,
+        belief: &Belief,
+        feature_motion: &[Vector3<f64>],
+        noise: &FilterNoise,
+        with_structure: bool,
+    ) -> Result<(), EstimatorError> {
+        let workspace = &mut self.workspace;
+        self.prior
+            .prepare(belief, feature_motion, noise, with_structure, workspace)
     }
 
     /// The predicted pose after `control`.
@@ -65,54 +99,40 @@ impl DirectTrace {
     /// trace(Pₙ₊₁), rad² + cm², if `control` is taken and `measurements` are made.
     ///
     /// # Errors
-    /// An unknown feature, or an innovation covariance that is not positive definite.
+    /// No decision prepared, an unknown feature, or an innovation covariance that is not positive
+    /// definite.
     pub fn after(
-        &self,
+        &mut self,
         control: &Control,
         measurements: &[PlannedMeasurement],
     ) -> Result<f64, EstimatorError> {
         let prior = &self.prior;
         let robot_only = FilterNoise {
             feature_motion_sigma: 0.0,
-            ..prior.noise
+            ..*prior.noise()?
         };
-        let mut covariance = prior.covariance.clone();
-        covariance.propagate(&motion_jacobian(&prior.pose, control), &robot_only);
-        if measurements.is_empty() {
-            return Ok(covariance.trace());
-        }
         let pose = self.predicted_pose(control);
-        let rows = 3 * measurements.len();
-        let mut h = Mat::<f64>::zeros(rows, covariance.dim());
-        for (m, measurement) in measurements.iter().enumerate() {
-            check_feature(measurement.feature, prior.features.len())?;
-            let point = &prior.features[measurement.feature.0];
-            let jacobian = feature_measurement_jacobians(&pose, point);
-            let offset = feature_offset(measurement.feature);
-            for a in 0..3 {
-                for k in 0..6 {
-                    h[(3 * m + a, k)] = jacobian.pose[(a, k)];
-                }
-                for b in 0..3 {
-                    h[(3 * m + a, offset + b)] = jacobian.feature[(a, b)];
-                }
-            }
+        self.sightings.clear();
+        for PlannedMeasurement {
+            feature,
+            covariance,
+        } in measurements
+        {
+            check_feature(*feature, prior.features.len())?;
+            let point = &prior.features[feature.0];
+            self.sightings
+                .push(Sighting::new(&pose, *feature, point, *covariance, None));
         }
-        let mut hp = &h * covariance.matrix();
-        let mut s = &hp * h.transpose();
-        for (m, measurement) in measurements.iter().enumerate() {
-            for a in 0..3 {
-                for b in 0..3 {
-                    s[(3 * m + a, 3 * m + b)] += measurement.covariance[(a, b)];
-                }
-            }
-        }
-        cholesky(
-            s.as_mut(),
-            "innovation covariance of the feature measurements",
+        self.posterior.copy_lower(&prior.covariance);
+        self.posterior
+            .propagate(&motion_jacobian(&prior.pose, control), &robot_only);
+        condition_on_features(
+            &mut self.posterior,
+            &self.sightings,
+            &mut self.workspace,
+            Parallelism::Sequential,
         )?;
-        solve_lower(s.as_ref(), hp.as_mut());
-        covariance.reduce_by(hp.as_ref())?;
-        Ok(covariance.trace())
+        self.posterior.check_variances()?;
+        Ok(self.posterior.trace())
     }
 }

@@ -1,28 +1,32 @@
 //! The objective with algebra of size 12 for each action; the formulas are in [`super::group`].
 
-use adslam_models::{
-    Control, EulerAngles, FeatureId, POSE_DIM, Pose, motion_jacobian, predicted_pose,
-};
-use faer::Mat;
+use adslam_models::{Control, EulerAngles, FeatureId, Pose, motion_jacobian, predicted_pose};
 use nalgebra::{Matrix3, Matrix6, Point3, SMatrix, Vector3, Vector6};
 
 use super::group::{Matrix12, SharedBlocks, VisibleSet};
+use super::pose_factor::semidefinite_root;
 use super::prior::DecisionPrior;
 use super::workspace::SetWorkspace;
+use crate::ekf::check_feature;
+use crate::workspace::Workspace;
 use crate::{Belief, EstimatorError, FilterNoise};
 
-/// A set of visible features that was added to a [`PosteriorTrace`].
+/// A set of visible features that was added to a [`PosteriorTrace`] in its present decision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SetId(usize);
+pub struct SetId {
+    decision: u64,
+    place: usize,
+}
 
 /// trace(Pₙ₊₁) for hundreds of actions from one belief, exactly as Algorithm 1 gives it with zero
 /// innovation, eq. (7).
 ///
-/// Announce the features that any action may see, add a set of visible features with
-/// [`PosteriorTrace::add_set`], then ask for each action that sees just those. A set of k
-/// features costs about 27k³ + 400k² multiplications, an action about 5 000, whatever the number of
-/// features.
-#[derive(Debug)]
+/// [`PosteriorTrace::prepare`] a decision with the features that any action may see, add a set of
+/// visible features with [`PosteriorTrace::add_set`], then ask for each action that sees just
+/// those. A set of k features costs about 27k³ + 400k² multiplications, an action about 5 000,
+/// whatever the number of features. Memory is kept from decision to decision: the second of the
+/// same size allocates nothing.
+#[derive(Clone, Debug)]
 pub struct PosteriorTrace {
     prior: DecisionPrior,
     /// c of the formulas: any point near the features keeps the numbers small.
@@ -30,17 +34,34 @@ pub struct PosteriorTrace {
     /// L, the factor of `P_rr`.
     root: Matrix6<f64>,
     shared: SharedBlocks,
+    /// How many decisions were prepared.
+    decision: u64,
     sets: Vec<VisibleSet>,
-    work: SetWorkspace,
+    of_set: SetWorkspace,
+    workspace: Workspace,
+}
+
+/// With no decision prepared.
+impl Default for PosteriorTrace {
+    fn default() -> Self {
+        Self {
+            prior: DecisionPrior::default(),
+            centre: Point3::origin(),
+            root: Matrix6::zeros(),
+            shared: SharedBlocks::default(),
+            decision: 0,
+            sets: Vec::new(),
+            of_set: SetWorkspace::default(),
+            workspace: Workspace::default(),
+        }
+    }
 }
 
 impl PosteriorTrace {
-    /// Prepares the decision: the belief at step n, what is known of the features' motion to step
-    /// n + 1 (cm, world), the noise to assume, whether all pairs of features will be measured, and
-    /// the features that any of the actions may see, each once.
+    /// The objective of one decision, see [`Self::prepare`].
     ///
     /// # Errors
-    /// Inputs that do not fit the belief, or a covariance that has broken down.
+    /// Those of [`Self::prepare`].
     pub fn new(
         belief: &Belief,
         feature_motion: &[Vector3<f64>],
@@ -48,43 +69,52 @@ impl PosteriorTrace {
         with_structure: bool,
         seen: &[FeatureId],
     ) -> Result<Self, EstimatorError> {
-        let prior = DecisionPrior::new(belief, feature_motion, noise, with_structure)?;
+        let mut objective = Self::default();
+        objective.prepare(belief, feature_motion, noise, with_structure, seen)?;
+        Ok(objective)
+    }
+
+    /// Starts a decision: the belief at step n, what is known of the features' motion to step n + 1
+    /// (cm, world), the noise to assume, whether all pairs of features will be measured, and the
+    /// features that any of the actions may see, each once. All sets are forgotten, memory is kept.
+    ///
+    /// # Errors
+    /// Inputs that do not fit the belief, or a covariance that has broken down; nothing is prepared then.
+    pub fn prepare(
+        &mut self,
+        belief: &Belief,
+        feature_motion: &[Vector3<f64>],
+        noise: &FilterNoise,
+        with_structure: bool,
+        seen: &[FeatureId],
+    ) -> Result<(), EstimatorError> {
+        self.sets.clear();
+        self.decision += 1;
+        self.prior.forget();
         for &feature in seen {
-            crate::ekf::check_feature(feature, prior.features.len())?;
+            check_feature(feature, belief.state.features.len())?;
         }
-        let count = prior.features.len().max(1) as f64;
-        let centre = Point3::from(
-            prior
-                .features
-                .iter()
-                .map(|p| p.coords)
-                .sum::<Vector3<f64>>()
-                / count,
-        );
-        let p = prior.covariance.matrix();
-        let size = p.nrows() - POSE_DIM;
-        let root = semidefinite_root(&prior.covariance.pose());
-        let j = cross_factor(p.submatrix(POSE_DIM, 0, size, POSE_DIM), &root);
+        let workspace = &mut self.workspace;
+        self.prior
+            .prepare(belief, feature_motion, noise, with_structure, workspace)?;
+        let features = &self.prior.features;
+        let sum: Vector3<f64> = features.iter().map(|p| p.coords).sum();
+        let centre = Point3::from(sum / features.len().max(1) as f64);
         let jacobian = |feature: FeatureId| {
             let mut a = SMatrix::<f64, 3, 6>::zeros();
-            let from_centre = prior.features[feature.0] - centre;
             a.fixed_view_mut::<3, 3>(0, 0)
-                .copy_from(&from_centre.cross_matrix());
+                .copy_from(&(features[feature.0] - centre).cross_matrix());
             a.fixed_view_mut::<3, 3>(0, 3)
                 .copy_from(&-Matrix3::identity());
             a
         };
-        let p_ff = p.submatrix(POSE_DIM, POSE_DIM, size, size);
+        self.centre = centre;
+        self.root = semidefinite_root(&self.prior.covariance.pose());
         let variance = noise.feature_measurement_sigma.powi(2);
-        let shared = SharedBlocks::new(p_ff, j.as_ref(), seen, jacobian, variance);
-        Ok(Self {
-            prior,
-            centre,
-            root,
-            shared,
-            sets: Vec::new(),
-            work: SetWorkspace::default(),
-        })
+        let covariance = &self.prior.covariance;
+        self.shared
+            .prepare(covariance, &self.root, seen, jacobian, variance);
+        Ok(())
     }
 
     /// The predicted pose after `control`.
@@ -96,10 +126,15 @@ impl PosteriorTrace {
     /// Adds a set of visible features, each once.
     ///
     /// # Errors
-    /// A feature that was not announced, or an innovation covariance that is not positive definite.
+    /// No decision prepared, a feature that was not announced, or an innovation covariance that is
+    /// not positive definite.
     pub fn add_set(&mut self, visible: &[FeatureId]) -> Result<SetId, EstimatorError> {
-        self.sets.push(self.shared.set(visible, &mut self.work)?);
-        Ok(SetId(self.sets.len() - 1))
+        self.prior.noise()?;
+        self.sets.push(self.shared.set(visible, &mut self.of_set)?);
+        Ok(SetId {
+            decision: self.decision,
+            place: self.sets.len() - 1,
+        })
     }
 
     /// trace(Pₙ₊₁), rad² + cm², if `control` is taken and the features of `set` are measured.
@@ -108,13 +143,15 @@ impl PosteriorTrace {
     /// a lower bound.
     ///
     /// # Errors
-    /// If the covariance has broken down.
-    ///
-    /// # Panics
-    /// If the set was added to another objective.
+    /// No decision prepared, a set of an earlier decision, or a covariance that has broken down.
     pub fn after(&self, control: &Control, set: SetId) -> Result<f64, EstimatorError> {
-        let (set, root) = (&self.sets[set.0], &self.root);
-        let noise = self.noise_root();
+        let noise = noise_root(self.prior.noise()?);
+        let set = self
+            .sets
+            .get(set.place)
+            .filter(|_| set.decision == self.decision)
+            .ok_or(EstimatorError::SetOfAnotherDecision)?;
+        let root = &self.root;
         let moved_root = motion_jacobian(&self.prior.pose, control) * root;
         let gamma = centred(&self.predicted_pose(control), &self.centre);
         // T = [[Γ√q, ΓFL], [0, I]].
@@ -145,13 +182,12 @@ impl PosteriorTrace {
                 dim: 12,
             })
     }
+}
 
-    /// √q, radians and cm.
-    fn noise_root(&self) -> Vector6<f64> {
-        let noise = &self.prior.noise;
-        let (r, t) = (noise.rotation_sigma, noise.translation_sigma);
-        Vector6::new(r, r, r, t, t, t)
-    }
+/// √q, radians and cm.
+fn noise_root(noise: &FilterNoise) -> Vector6<f64> {
+    let (r, t) = (noise.rotation_sigma, noise.translation_sigma);
+    Vector6::new(r, r, r, t, t, t)
 }
 
 /// Γ: the error of a pose as the motion of the body about `centre`, world axes.
@@ -221,42 +257,4 @@ fn trace_of_quotient(a: &Matrix12, z: &Matrix12) -> Option<f64> {
     };
     let half = solve_transposed(full);
     Some(solve_transposed(half.transpose()).trace())
-}
-
-/// L with LLᵀ = `p`, lower triangular; where `p` is singular the columns without a pivot are zero.
-fn semidefinite_root(p: &Matrix6<f64>) -> Matrix6<f64> {
-    let mut root = Matrix6::zeros();
-    let mut rest = *p;
-    for k in 0..6 {
-        let pivot = rest[(k, k)];
-        // What is left of a variance after all of it was explained is rounding.
-        if pivot <= 1e-14 * p[(k, k)] {
-            continue;
-        }
-        let column = rest.column(k) / pivot.sqrt();
-        for i in k..6 {
-            root[(i, k)] = column[i];
-        }
-        for j in k + 1..6 {
-            for i in k + 1..6 {
-                rest[(i, j)] -= column[i] * column[j];
-            }
-        }
-    }
-    root
-}
-
-/// J = P_fr L⁻ᵀ, with zero columns where L has none: the features' part that goes with the pose.
-fn cross_factor(p_fr: faer::MatRef<'_, f64>, root: &Matrix6<f64>) -> Mat<f64> {
-    let mut j = Mat::zeros(p_fr.nrows(), 6);
-    for k in 0..6 {
-        if root[(k, k)] == 0.0 {
-            continue;
-        }
-        for i in 0..p_fr.nrows() {
-            let explained: f64 = (0..k).map(|l| j[(i, l)] * root[(k, l)]).sum();
-            j[(i, k)] = (p_fr[(i, k)] - explained) / root[(k, k)];
-        }
-    }
-    j
 }

@@ -16,14 +16,16 @@
 //!
 //! where N, the Gram matrix of [0, J] − `P̂_fS` B⁻¹ U, and K have size 12 and belong to the set.
 
-use adslam_models::FeatureId;
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par};
-use nalgebra::SMatrix;
+use adslam_models::{FeatureId, POSE_DIM, feature_offset};
+use faer::prelude::{Reborrow, ReborrowMut};
+use nalgebra::{Matrix6, SMatrix};
 
+use super::pose_factor::set_cross_factor;
 use super::workspace::SetWorkspace;
-use crate::EstimatorError;
+use crate::buffer::Buffer;
 use crate::ekf::check_feature;
+use crate::linear_algebra::{set_gram, set_product, subtract_product};
+use crate::{Covariance, EstimatorError, Parallelism};
 
 /// A 12 × 12 matrix over ξ.
 pub(super) type Matrix12 = SMatrix<f64, 12, 12>;
@@ -39,89 +41,96 @@ pub(super) struct VisibleSet {
     pub(super) constant: f64,
 }
 
-/// What all sets of a decision share, over the features that any of them sees.
-#[derive(Clone, Debug)]
+/// What all sets of a decision share, over the features that any of them sees, in memory that is kept.
+#[derive(Clone, Debug, Default)]
 pub(super) struct SharedBlocks {
     /// For each feature its place among the `seen`, or none.
     place: Vec<Option<usize>>,
     /// `P̂_VV` + σ²I, V the features seen.
-    pub(super) b: Mat<f64>,
+    pub(super) b: Buffer,
     /// `(P̂²)_VV`.
-    pub(super) squared: Mat<f64>,
+    pub(super) squared: Buffer,
     /// U over V, 3v × 12.
-    pub(super) u: Mat<f64>,
+    pub(super) u: Buffer,
     /// `(P̂J)_V`, 3v × 6.
-    pub(super) pj: Mat<f64>,
+    pub(super) pj: Buffer,
+    /// P's columns of V, n × 3v, then P̂'s in the rows of the features.
+    columns: Buffer,
+    /// J, 3M × 6.
+    j: Buffer,
+    /// `J_V`, 3v × 6.
+    j_seen: Buffer,
     /// JᵀJ, 6 × 6.
-    jj: SMatrix<f64, 6, 6>,
+    jj: Matrix6<f64>,
     /// tr P̂.
     trace: f64,
 }
 
 impl SharedBlocks {
-    /// Gathers the blocks over the features `seen` (each once): P over all features, J (3M × 6), and
-    /// A for each feature.
-    pub(super) fn new(
-        p_ff: MatRef<'_, f64>,
-        j: MatRef<'_, f64>,
+    /// Gathers the blocks over the features `seen` (each once): P's lower triangle, L, A for each
+    /// feature, and σ².
+    pub(super) fn prepare(
+        &mut self,
+        covariance: &Covariance,
+        root: &Matrix6<f64>,
         seen: &[FeatureId],
         jacobian: impl Fn(FeatureId) -> SMatrix<f64, 3, 6>,
         measurement_variance: f64,
-    ) -> Self {
-        let all = p_ff.nrows();
-        let mut place = vec![None; all / 3];
-        let mut u = Mat::zeros(3 * seen.len(), 12);
-        let mut p_hat = Mat::zeros(3 * seen.len(), all);
-        let mut j_seen = Mat::zeros(3 * seen.len(), 6);
+    ) {
+        set_cross_factor(&mut self.j, covariance, root);
+        let (all, rows) = (self.j.nrows(), 3 * seen.len());
+        self.place.clear();
+        self.place.resize(covariance.feature_count(), None);
+        self.u.reshape(rows, 12);
+        self.j_seen.reshape(rows, 6);
+        self.columns.reshape(covariance.dim(), rows);
         for (at, &feature) in seen.iter().enumerate() {
-            place[feature.0] = Some(at);
+            self.place[feature.0] = Some(at);
             let (row, from) = (3 * at, 3 * feature.0);
             let a = jacobian(feature);
             for axis in 0..3 {
                 for column in 0..6 {
-                    u[(row + axis, column)] = a[(axis, column)];
-                    u[(row + axis, 6 + column)] = j[(from + axis, column)];
-                    j_seen[(row + axis, column)] = j[(from + axis, column)];
+                    let j = self.j[(from + axis, column)];
+                    self.u[(row + axis, column)] = a[(axis, column)];
+                    self.u[(row + axis, 6 + column)] = j;
+                    self.j_seen[(row + axis, column)] = j;
                 }
             }
-            for column in 0..all {
-                for axis in 0..3 {
-                    // Symmetric: a column is contiguous where a row is not.
-                    p_hat[(row + axis, column)] = p_ff[(column, from + axis)];
-                }
-            }
+            covariance.copy_columns(
+                feature_offset(feature),
+                self.columns.subcols_mut(row, 3),
+                Parallelism::Sequential,
+            );
         }
-        matmul(
-            &mut p_hat,
-            Accum::Add,
-            &j_seen,
-            j.transpose(),
-            -1.0,
-            Par::Seq,
+        let mut p_hat = self.columns.subrows_mut(POSE_DIM, all);
+        subtract_product(
+            p_hat.rb_mut(),
+            self.j.as_ref(),
+            self.j_seen.as_ref(),
+            Parallelism::Sequential,
         );
-        let squared = &p_hat * p_hat.transpose();
-        let pj = &p_hat * j;
-        let mut b = Mat::zeros(3 * seen.len(), 3 * seen.len());
+        let p_hat = p_hat.rb();
+        self.squared.reshape(rows, rows);
+        self.pj.reshape(rows, 6);
+        set_gram(self.squared.as_mut(), p_hat);
+        set_product(self.pj.as_mut(), p_hat.transpose(), self.j.as_ref());
+        self.b.reshape(rows, rows);
         for (at, &feature) in seen.iter().enumerate() {
             for axis in 0..3 {
-                for row in 0..b.nrows() {
-                    b[(row, 3 * at + axis)] = p_hat[(row, 3 * feature.0 + axis)];
+                for column in 0..rows {
+                    self.b[(3 * at + axis, column)] = p_hat[(3 * feature.0 + axis, column)];
                 }
-                b[(3 * at + axis, 3 * at + axis)] += measurement_variance;
+                self.b[(3 * at + axis, 3 * at + axis)] += measurement_variance;
             }
         }
-        let jj = j.transpose() * j;
-        let diagonal: f64 = (0..all).map(|i| p_ff[(i, i)]).sum();
-        let trace = diagonal - (0..6).map(|i| jj[(i, i)]).sum::<f64>();
-        Self {
-            place,
-            b,
-            squared,
-            u,
-            pj,
-            jj: SMatrix::from_fn(|r, c| jj[(r, c)]),
-            trace,
-        }
+        self.jj = Matrix6::from_fn(|r, c| {
+            let product = self.j.col(r).iter().zip(self.j.col(c).iter());
+            product.map(|(a, b)| a * b).sum()
+        });
+        let variances: f64 = (POSE_DIM..covariance.dim())
+            .map(|i| covariance.entry(i, i))
+            .sum();
+        self.trace = variances - self.jj.trace();
     }
 
     /// The place of a feature among those seen.

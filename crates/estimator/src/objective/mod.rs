@@ -11,6 +11,7 @@
 mod direct;
 mod fast;
 mod group;
+mod pose_factor;
 mod prior;
 mod workspace;
 

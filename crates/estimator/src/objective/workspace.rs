@@ -1,46 +1,30 @@
 //! Room for the factorisation of one visible set, kept from set to set.
 
 use adslam_models::FeatureId;
-use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
-use faer::{Accum, Mat, Par};
+use faer::{Accum, Par};
 use nalgebra::SMatrix;
 
 use super::group::{Matrix12, SharedBlocks};
 use crate::EstimatorError;
-use crate::linear_algebra::{cholesky, solve_lower};
+use crate::buffer::Buffer;
+use crate::linear_algebra::{cholesky, set_product, solve_lower};
 
 /// The blocks of one set: B and its factor, U and what becomes of it, P̂J, and P̂².
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct SetWorkspace {
     /// B, then L.
-    b: Mat<f64>,
+    b: Buffer,
     /// U, then L⁻¹U, then X = B⁻¹U.
-    x: Mat<f64>,
-    pj: Mat<f64>,
-    squared: Mat<f64>,
-    inverse_factor: Mat<f64>,
-    inverse: Mat<f64>,
-    squared_x: Mat<f64>,
-    small: Mat<f64>,
-}
-
-impl Default for SetWorkspace {
-    fn default() -> Self {
-        let empty = Mat::new;
-        Self {
-            b: empty(),
-            x: empty(),
-            pj: empty(),
-            squared: empty(),
-            inverse_factor: empty(),
-            inverse: empty(),
-            squared_x: empty(),
-            small: Mat::zeros(12, 12),
-        }
-    }
+    x: Buffer,
+    pj: Buffer,
+    squared: Buffer,
+    inverse_factor: Buffer,
+    inverse: Buffer,
+    squared_x: Buffer,
+    small: Buffer,
 }
 
 impl SetWorkspace {
@@ -57,11 +41,12 @@ impl SetWorkspace {
             &mut self.inverse_factor,
             &mut self.inverse,
         ] {
-            resize(square, rows, rows);
+            square.reshape(rows, rows);
         }
-        resize(&mut self.x, rows, 12);
-        resize(&mut self.squared_x, rows, 12);
-        resize(&mut self.pj, rows, 6);
+        self.x.reshape(rows, 12);
+        self.squared_x.reshape(rows, 12);
+        self.pj.reshape(rows, 6);
+        self.small.reshape(12, 12);
         for (column, &to) in visible.iter().enumerate() {
             let to = 3 * shared.place(to)?;
             for (row, &from) in visible.iter().enumerate() {
@@ -102,14 +87,7 @@ impl SetWorkspace {
     /// (L⁻¹U)ᵀ(L⁻¹U), before [`Self::finish_solve`].
     pub(super) fn gram_of_whitened(&mut self) -> Matrix12 {
         let small = self.small.as_mut();
-        matmul(
-            small,
-            Accum::Replace,
-            self.x.transpose(),
-            &self.x,
-            1.0,
-            Par::Seq,
-        );
+        set_product(small, self.x.transpose(), self.x.as_ref());
         SMatrix::from_fn(|i, j| self.small[(i, j)])
     }
 
@@ -121,37 +99,16 @@ impl SetWorkspace {
     /// (P̂J)ᵀX.
     pub(super) fn pj_times_x(&mut self) -> SMatrix<f64, 6, 12> {
         let small = self.small.as_mut().subrows_mut(0, 6);
-        matmul(
-            small,
-            Accum::Replace,
-            self.pj.transpose(),
-            &self.x,
-            1.0,
-            Par::Seq,
-        );
+        set_product(small, self.pj.transpose(), self.x.as_ref());
         SMatrix::from_fn(|i, j| self.small[(i, j)])
     }
 
     /// XᵀP̂²X.
     pub(super) fn squared_between_x(&mut self) -> Matrix12 {
         let product = self.squared_x.as_mut();
-        matmul(
-            product,
-            Accum::Replace,
-            &self.squared,
-            &self.x,
-            1.0,
-            Par::Seq,
-        );
+        set_product(product, self.squared.as_ref(), self.x.as_ref());
         let small = self.small.as_mut();
-        matmul(
-            small,
-            Accum::Replace,
-            self.x.transpose(),
-            &self.squared_x,
-            1.0,
-            Par::Seq,
-        );
+        set_product(small, self.x.transpose(), self.squared_x.as_ref());
         SMatrix::from_fn(|i, j| self.small[(i, j)])
     }
 
@@ -164,7 +121,7 @@ impl SetWorkspace {
             Accum::Replace,
             self.inverse_factor.transpose(),
             BlockStructure::TriangularUpper,
-            &self.inverse_factor,
+            self.inverse_factor.as_ref(),
             BlockStructure::TriangularLower,
             1.0,
             Par::Seq,
@@ -189,9 +146,4 @@ impl SetWorkspace {
         }
         diagonal + 2.0 * below
     }
-}
-
-/// Gives the matrix a size; what it held is of no interest. Room that it once had is kept.
-fn resize(matrix: &mut Mat<f64>, rows: usize, columns: usize) {
-    matrix.resize_with(rows, columns, |_, _| 0.0);
 }

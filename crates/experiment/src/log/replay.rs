@@ -4,7 +4,8 @@ use std::io::BufRead;
 use std::path::Path;
 
 use adslam_estimator::{
-    Belief, Ekf, FeatureMeasurement, Measurements, PairMeasurement, StructureMeasurements,
+    Belief, Ekf, FeatureMeasurement, Measurements, PairMeasurement, Parallelism,
+    StructureMeasurements,
 };
 use adslam_models::{Control, FeatureId};
 use nalgebra::Vector3;
@@ -62,7 +63,10 @@ impl<R: BufRead> Replay<R> {
                  says which sigmas may be 0",
             )
         };
-        let ekf = Ekf::new(log.header().noise.into()).map_err(|error| about("noise", error))?;
+        // One log is one run, so the threads are free for its steps.
+        let ekf = Ekf::new(log.header().noise.into())
+            .map_err(|error| about("noise", error))?
+            .with_parallelism(Parallelism::Rayon);
         let belief = log
             .header()
             .initial

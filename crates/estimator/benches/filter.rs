@@ -1,0 +1,156 @@
+//! One step of the filter and its structure update, at sizes from the polygon's to 1000 features, beside the
+//! matrix product that the machine does. Elements are floating-point operations, so that criterion's
+//! "elem/s" are flop/s.
+#![allow(clippy::unwrap_used, reason = "a bench stops where its numbers fail")]
+
+mod common;
+#[path = "common/joint.rs"]
+mod joint;
+#[path = "../tests/common/mod.rs"]
+mod textbook;
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use adslam_estimator::{Ekf, FeatureMeasurement, PairMeasurement, Parallelism};
+use adslam_models::FeatureId;
+use common::{CASES, Case, NOISE, Step, belief};
+use criterion::measurement::WallTime;
+use criterion::{
+    BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group,
+    criterion_main,
+};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
+use nalgebra::Vector3;
+
+/// The smallest case that threads are tried on; smaller ones stay on one.
+const THREADED: usize = 200;
+
+/// Additions and multiplications to condition n entries on `rows` measured numbers: n² a row for the lower
+/// triangle of P − VVᵀ, the least that any way needs. What making V and keeping P symmetric costs is
+/// time that no operations are counted for.
+fn conditioning(dim: usize, rows: usize) -> Throughput {
+    Throughput::Elements((dim * dim * rows) as u64)
+}
+
+/// Of all pairs: three numbers for each contrast.
+fn contrast_rows(case: Case) -> usize {
+    3 * (case.features - 1)
+}
+
+fn group<'a>(criterion: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a, WallTime> {
+    let mut group = criterion.benchmark_group(name);
+    group
+        .sampling_mode(SamplingMode::Flat)
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(600));
+    group
+}
+
+fn matrix_product(criterion: &mut Criterion) {
+    let mut group = group(criterion, "matrix_product");
+    for case in CASES {
+        let n = case.dim();
+        group.throughput(Throughput::Elements(2 * (n * n * n) as u64));
+        let a = Mat::from_fn(n, n, |i, j| ((i * 7 + j * 13) % 101) as f64 / 101.0);
+        let mut product = Mat::zeros(n, n);
+        group.bench_function(BenchmarkId::new("fast", case.name), |bencher| {
+            bencher.iter(|| {
+                let product = black_box(product.as_mut());
+                matmul(product, Accum::Replace, &a, &a, 1.0, Par::Seq);
+            });
+        });
+    }
+}
+
+/// The filter on one thread and on two, the case's step before it.
+fn filters(case: Case) -> Vec<(&'static str, rayon::ThreadPool, Ekf)> {
+    let pool = |threads| {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap()
+    };
+    let ekf = Ekf::new(NOISE).unwrap();
+    let mut filters = vec![("fast", pool(1), ekf.clone())];
+    if case.features >= THREADED {
+        let two = ekf.with_parallelism(Parallelism::Rayon);
+        filters.push(("fast_two_threads", pool(2), two));
+    }
+    filters
+}
+
+fn structure_update(criterion: &mut Criterion) {
+    let mut group = group(criterion, "structure_update");
+    for case in CASES {
+        let start = belief(case).unwrap();
+        let step = Step::new(&start, case, 0);
+        group.throughput(conditioning(case.dim(), contrast_rows(case)));
+        for (variant, pool, mut ekf) in filters(case) {
+            let mut belief = start.clone();
+            group.bench_function(BenchmarkId::new(variant, case.name), |bencher| {
+                pool.install(|| bencher.iter(|| step.update(&mut ekf, &mut belief, &[]).unwrap()));
+            });
+        }
+        let mut p = joint::matrix(&start.covariance);
+        group.bench_function(BenchmarkId::new("direct", case.name), |bencher| {
+            bencher.iter(|| joint::update(&mut p, NOISE.structure_measurement_sigma).unwrap());
+        });
+        if case.name == "polygon" {
+            bench_textbook(&mut group, case, &start, &[]);
+        }
+    }
+}
+
+fn ekf_step(criterion: &mut Criterion) {
+    let mut group = group(criterion, "ekf_step");
+    for case in CASES {
+        let start = belief(case).unwrap();
+        let step = Step::new(&start, case, 0);
+        let rows = 3 * case.seen + contrast_rows(case);
+        group.throughput(conditioning(case.dim(), rows));
+        for (variant, pool, mut ekf) in filters(case) {
+            let mut belief = start.clone();
+            group.bench_function(BenchmarkId::new(variant, case.name), |bencher| {
+                pool.install(|| bencher.iter(|| step.run(&mut ekf, &mut belief).unwrap()));
+            });
+        }
+        if case.name == "polygon" {
+            bench_textbook(&mut group, case, &start, &step.features);
+        }
+    }
+}
+
+/// Every row stacked, as Algorithm 1 is printed; with the propagation where features are seen.
+fn bench_textbook(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    case: Case,
+    belief: &adslam_estimator::Belief,
+    features: &[FeatureMeasurement],
+) {
+    let p = textbook::covariance_matrix(belief);
+    let step = Step::new(belief, case, 0);
+    let pairs: Vec<PairMeasurement> = textbook::every_pair(case.features)
+        .into_iter()
+        .map(|(i, j)| PairMeasurement {
+            from: FeatureId(i),
+            to: FeatureId(j),
+            z: Vector3::zeros(),
+        })
+        .collect();
+    group.bench_function(BenchmarkId::new("textbook", case.name), |bencher| {
+        bencher.iter(|| {
+            if features.is_empty() {
+                return textbook::update(&belief.state, &p, features, &pairs, &NOISE);
+            }
+            let (state, p) =
+                textbook::propagate(&belief.state, &p, &step.control, &step.motion, &NOISE);
+            textbook::update(&state, &p, features, &pairs, &NOISE)
+        });
+    });
+}
+
+criterion_group!(benches, matrix_product, structure_update, ekf_step);
+criterion_main!(benches);
