@@ -7,6 +7,7 @@
 //! are those of [`Surface::sees`] and [`Surface::crosses`], to the last one.
 
 use nalgebra::{Point3, Vector3};
+use pulp::{Simd, WithSimd};
 
 use crate::predicates::segment_touches_triangle;
 use crate::spatial::Bounds;
@@ -96,8 +97,12 @@ impl Fan {
             }
             let corners = surface.corners(face);
             let view = FaceView::from(from, corners, size);
-            let (lists, clearness) = (&self.ends, &mut self.clearness);
-            if arch.dispatch(|| view.clearness(lists, clearness)) < -view.rounding {
+            let most = arch.dispatch(WriteClearness {
+                view: &view,
+                ends: self.ends.each_ref().map(Vec::as_slice),
+                clearness: &mut self.clearness,
+            });
+            if most < -view.rounding {
                 continue;
             }
             self.close(|id, clearness| {
@@ -184,32 +189,54 @@ impl FaceView {
             rounding,
         }
     }
-
-    /// Writes for each segment, `ends` axis by axis, how clearly it passes through the face: negative
-    /// where it does not, about zero where it touches an edge, a corner or the plane. Returns the
-    /// largest. All lists have the same length, a multiple of [`LANES`].
-    #[inline(always)]
-    fn clearness(&self, ends: &[Vec<f64>; 3], out: &mut [f64]) -> f64 {
-        let [x, y, z] = ends.each_ref().map(|list| list.as_chunks::<LANES>().0);
-        let mut largest = [f64::NEG_INFINITY; LANES];
-        for (((x, y), z), out) in x.iter().zip(y).zip(z).zip(out.as_chunks_mut::<LANES>().0) {
-            for lane in 0..LANES {
-                let [u, v, w] = self
-                    .planes
-                    .each_ref()
-                    .map(|n| n.x * x[lane] + n.y * y[lane] + n.z * z[lane]);
-                let reach = u + v + w - self.volume;
-                let clearness = smaller(smaller(u, v), smaller(w, reach));
-                out[lane] = clearness;
-                largest[lane] = -smaller(-largest[lane], -clearness);
-            }
-        }
-        largest.into_iter().fold(f64::NEG_INFINITY, f64::max)
-    }
 }
 
-/// As [`f64::min`] for numbers that are not NaN, in one instruction.
-#[inline(always)]
-fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
+/// Writes for each segment how clearly it passes through the face: negative where it does not, about
+/// zero where it touches an edge, a corner or the plane. Gives the largest.
+struct WriteClearness<'a> {
+    view: &'a FaceView,
+    /// The segments' ends, axis by axis; all lists are of the same length, a multiple of [`LANES`].
+    ends: [&'a [f64]; 3],
+    clearness: &'a mut [f64],
+}
+
+impl WithSimd for WriteClearness<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        // Written out: what is inlined into a closure would not be compiled for the vectors.
+        let [a, b, c] = &self.view.planes;
+        let [ax, ay, az] = [
+            simd.splat_f64s(a.x),
+            simd.splat_f64s(a.y),
+            simd.splat_f64s(a.z),
+        ];
+        let [bx, by, bz] = [
+            simd.splat_f64s(b.x),
+            simd.splat_f64s(b.y),
+            simd.splat_f64s(b.z),
+        ];
+        let [cx, cy, cz] = [
+            simd.splat_f64s(c.x),
+            simd.splat_f64s(c.y),
+            simd.splat_f64s(c.z),
+        ];
+        let volume = simd.splat_f64s(self.view.volume);
+        let x = S::as_simd_f64s(self.ends[0]).0;
+        let y = S::as_simd_f64s(self.ends[1]).0;
+        let z = S::as_simd_f64s(self.ends[2]).0;
+        let out = S::as_mut_simd_f64s(self.clearness).0;
+        let mut largest = simd.splat_f64s(f64::NEG_INFINITY);
+        for (((&x, &y), &z), out) in x.iter().zip(y).zip(z).zip(out) {
+            let u = simd.mul_add_f64s(ax, x, simd.mul_add_f64s(ay, y, simd.mul_f64s(az, z)));
+            let v = simd.mul_add_f64s(bx, x, simd.mul_add_f64s(by, y, simd.mul_f64s(bz, z)));
+            let w = simd.mul_add_f64s(cx, x, simd.mul_add_f64s(cy, y, simd.mul_f64s(cz, z)));
+            let sum = simd.add_f64s(simd.add_f64s(u, v), w);
+            let reach = simd.sub_f64s(sum, volume);
+            *out = simd.min_f64s(simd.min_f64s(u, v), simd.min_f64s(w, reach));
+            largest = simd.max_f64s(largest, *out);
+        }
+        simd.reduce_max_f64s(largest)
+    }
 }
