@@ -12,7 +12,9 @@ mod textbook;
 use std::hint::black_box;
 use std::time::Duration;
 
-use adslam_estimator::{Ekf, FeatureMeasurement, PairMeasurement, Parallelism};
+use adslam_estimator::{
+    Ekf, FeatureMeasurement, Measurements, PairMeasurement, Parallelism, StructureMeasurements,
+};
 use adslam_models::FeatureId;
 use common::{CASES, Case, NOISE, Step, belief};
 use criterion::measurement::WallTime;
@@ -65,7 +67,7 @@ fn matrix_product(criterion: &mut Criterion) {
     }
 }
 
-/// The filter on one thread and on two, the case's step before it.
+/// The filter on one thread and, where the state is large enough, on two.
 fn filters(case: Case) -> Vec<(&'static str, rayon::ThreadPool, Ekf)> {
     let pool = |threads| {
         rayon::ThreadPoolBuilder::new()
@@ -100,6 +102,27 @@ fn structure_update(criterion: &mut Criterion) {
         });
         if case.name == "polygon" {
             bench_textbook(&mut group, case, &start, &[]);
+        }
+    }
+}
+
+/// The propagation is linear in n but for keeping P symmetric, so this and the structure are the step.
+fn feature_update(criterion: &mut Criterion) {
+    let mut group = group(criterion, "feature_update");
+    for case in CASES {
+        let start = belief(case).unwrap();
+        let step = Step::new(&start, case, 0);
+        let measurements = Measurements {
+            features: &step.features,
+            structure: StructureMeasurements::None,
+        };
+        group.throughput(conditioning(case.dim(), 3 * case.seen));
+        for (variant, pool, mut ekf) in filters(case) {
+            let mut belief = start.clone();
+            let mut update = || ekf.update(&mut belief, &measurements).unwrap();
+            group.bench_function(BenchmarkId::new(variant, case.name), |bencher| {
+                pool.install(|| bencher.iter(&mut update));
+            });
         }
     }
 }
@@ -152,5 +175,11 @@ fn bench_textbook(
     });
 }
 
-criterion_group!(benches, matrix_product, structure_update, ekf_step);
+criterion_group!(
+    benches,
+    matrix_product,
+    feature_update,
+    structure_update,
+    ekf_step
+);
 criterion_main!(benches);

@@ -60,6 +60,18 @@ impl Belief {
         })
     }
 
+    /// State and covariance must be of the same features.
+    pub(crate) fn check_sizes(&self) -> Result<(), EstimatorError> {
+        if self.covariance.dim() == self.state.dim() {
+            return Ok(());
+        }
+        Err(EstimatorError::WrongCount {
+            what: "the covariance",
+            found: self.covariance.feature_count(),
+            expected: self.state.features.len(),
+        })
+    }
+
     /// χ̂ ← χ̂ + K y, given entry by entry in the order of the state, with the angles wrapped.
     ///
     /// # Errors

@@ -57,7 +57,7 @@ impl Covariance {
     /// The number of features M.
     #[must_use]
     pub fn feature_count(&self) -> usize {
-        (self.dim() - POSE_DIM) / 3
+        self.dim().saturating_sub(POSE_DIM) / 3
     }
 
     /// One entry.

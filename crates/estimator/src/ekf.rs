@@ -77,7 +77,8 @@ impl Ekf {
     /// `feature_motion` is what the filter knows of each feature's motion, r_t t + r_d d, cm, world.
     ///
     /// # Errors
-    /// A wrong number of displacements, or NaN or infinity in an input.
+    /// A covariance that is not of the state's features, a wrong number of displacements, or NaN or
+    /// infinity in an input.
     pub fn predict(
         &self,
         belief: &mut Belief,
@@ -98,13 +99,14 @@ impl Ekf {
     /// predicted state, and the structure measurements, being linear, may follow.
     ///
     /// # Errors
-    /// Measurements of unknown or repeated features, non-finite numbers, or a covariance that has
-    /// broken down; the belief must then not be used further.
+    /// A covariance that is not of the state's features or has broken down, measurements of unknown or
+    /// repeated features, or non-finite numbers; the belief must then not be used further.
     pub fn update(
         &mut self,
         belief: &mut Belief,
         measurements: &Measurements<'_>,
     ) -> Result<(), EstimatorError> {
+        belief.check_sizes()?;
         let parallelism = self.parallelism.for_dim(belief.covariance.dim());
         self.features.apply(
             belief,
@@ -130,6 +132,7 @@ pub(crate) fn check_motion(
     control: &Control,
     feature_motion: &[Vector3<f64>],
 ) -> Result<(), EstimatorError> {
+    belief.check_sizes()?;
     let expected = belief.state.features.len();
     if feature_motion.len() != expected {
         return Err(EstimatorError::WrongCount {

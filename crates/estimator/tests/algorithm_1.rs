@@ -219,6 +219,23 @@ fn measurements_that_cannot_be_used_are_refused() {
             ..
         }
     ));
+    belief.state.features.pop();
+    let one_too_many = E::WrongCount {
+        what: "the covariance",
+        found: 2,
+        expected: 1,
+    };
+    let nothing = Measurements {
+        features: &[],
+        structure: none,
+    };
+    let error = ekf.update(&mut belief, &nothing).unwrap_err();
+    assert_eq!(error, one_too_many);
+    let error = ekf
+        .predict(&mut belief, &Control::default(), &[Vector3::zeros()])
+        .unwrap_err();
+    assert_eq!(error, one_too_many);
+    let mut belief = fresh();
     let infinite = Control {
         translation: Vector3::repeat(f64::INFINITY),
         ..Control::default()
