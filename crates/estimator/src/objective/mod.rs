@@ -8,6 +8,7 @@
 //! * [`PosteriorTrace`] does the work that does not depend on the action once for each *set* of visible
 //!   features, and is left with algebra of size 12 for each action. It needs isotropic noise.
 
+mod action;
 mod direct;
 mod fast;
 mod group;
