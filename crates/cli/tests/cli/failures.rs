@@ -1,31 +1,16 @@
 //! Runs and logs that fail on the way: the message names them and the step, and what is finished is
 //! kept.
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::support::{FAILURE, Place, lines, log, polygon};
 
-/// Motion noise and measurement noise fifteen orders of magnitude apart: no covariance of doubles
-/// holds both.
+/// A filter that believes in motion noise and measurement noise fifteen orders of magnitude apart: no
+/// covariance of doubles holds both.
 fn breaking() -> String {
-    polygon(&[
-        (
-            "rotation_sigma_rad = 0.02",
-            "rotation_sigma_rad = 1000000.0",
-        ),
-        (
-            "translation_sigma_cm = 0.03",
-            "translation_sigma_cm = 1000000.0",
-        ),
-        (
-            "feature_measurement_sigma_cm = 0.02",
-            "feature_measurement_sigma_cm = 1e-9",
-        ),
-        (
-            "structure_measurement_sigma_cm = 0.5",
-            "structure_measurement_sigma_cm = 1e-9",
-        ),
-    ])
+    let filter = "[filter]\nrotation_sigma_rad = 1e6\ntranslation_sigma_cm = 1e6\n\
+        feature_measurement_sigma_cm = 1e-9\nstructure_measurement_sigma_cm = 1e-9\n\n[sensor]";
+    polygon(&[("[sensor]", filter)])
 }
 
 #[test]
@@ -98,17 +83,40 @@ fn an_indefinite_covariance_names_the_step() {
     );
 }
 
-/// Sigmas so small that their squares vanish.
+/// Noise so large that its variance is no number.
 #[test]
 fn a_covariance_that_breaks_down_names_the_step() {
     let mut log = log();
-    for key in ["feature_measurement_sigma", "structure_measurement_sigma"] {
-        log[0]["noise"][key] = json!(1e-150);
-    }
-    let words = ["the filter failed at step 3", "Check that the noise sigmas"];
+    log[0]["noise"]["feature_motion_sigma"] = json!(1e160);
+    let words = ["the filter failed at step 2", "Check that the noise sigmas"];
     Place::new(&[("log.jsonl", &lines(&log))]).ends_badly(
         "filter log.jsonl --out estimates.jsonl",
         FAILURE,
         &words,
     );
+}
+
+/// What is measured exactly, and moves on with noise, is no breakdown.
+#[test]
+fn vanishing_measurement_noise_is_filtered() {
+    let mut log = log();
+    for key in ["feature_measurement_sigma", "structure_measurement_sigma"] {
+        log[0]["noise"][key] = json!(1e-150);
+    }
+    let place = Place::new(&[("log.jsonl", &lines(&log))]);
+    let said = place.adslam("filter log.jsonl --out estimates.jsonl");
+    assert_eq!(said.code, Some(0), "{said:?}");
+    let estimates = place.read("estimates.jsonl");
+    assert_eq!(estimates.lines().count(), 4);
+    for line in estimates.lines() {
+        let estimate: Value = serde_json::from_str(line).unwrap();
+        let along = |axis: usize| {
+            let of = |feature: usize| estimate["features"][feature][axis].as_f64().unwrap();
+            of(1) - of(0)
+        };
+        assert!((along(0) - 1.0).abs() < 1e-9, "{estimate}");
+        assert!(along(1).abs() < 1e-9 && along(2).abs() < 1e-9, "{estimate}");
+        let variances = estimate["covariance_diagonal"].as_array().unwrap();
+        assert!(variances.iter().all(|v| v.as_f64().unwrap() > 0.0));
+    }
 }
