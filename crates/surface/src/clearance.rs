@@ -50,7 +50,7 @@ impl Clearance {
         self.ends.clear();
         self.ends.extend(ends);
         self.clear.clear();
-        if !is_usable(start) || surface.winding_number(start) != 0 {
+        if !is_usable(start) || surface.winding_number_face_by_face(start) != 0 {
             return &self.clear;
         }
         let usable = (0..self.ends.len()).filter(|&i| is_usable(&self.ends[i]));
@@ -61,7 +61,7 @@ impl Clearance {
             .iter()
             .fold(0.0_f64, |most, &i| most.max(length(&self.ends[i])));
         let reach = (clearance + longest) * (1.0 + SLACK);
-        if surface.distance(start) > reach {
+        if surface.distance_face_by_face(start) > reach {
             return &self.clear;
         }
         self.find_near(surface, start, reach);

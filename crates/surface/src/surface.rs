@@ -166,27 +166,45 @@ impl Surface {
         (0..self.boxes.len()).any(|face| self.boxes[face].touch(&around) && touches(face))
     }
 
-    pub(crate) fn distance(&self, p: &Point3<f64>) -> f64 {
-        let to_face = |face: usize| distance_to_triangle(p, self.corners(face));
-        if let Some(tree) = self.tree() {
-            return tree.least_distance(p, to_face);
+    fn distance(&self, p: &Point3<f64>) -> f64 {
+        match self.tree() {
+            Some(tree) => tree.least_distance(p, |face| self.distance_to_face(p, face)),
+            None => self.distance_face_by_face(p),
         }
+    }
+
+    fn winding_number(&self, p: &Point3<f64>) -> i32 {
+        match self.tree() {
+            Some(tree) => tree.above(p).map(|face| self.crossing(p, face)).sum(),
+            None => self.winding_number_face_by_face(p),
+        }
+    }
+
+    /// The distance from `p`, without a sign and without a tree.
+    pub(crate) fn distance_face_by_face(&self, p: &Point3<f64>) -> f64 {
         let mut least = f64::INFINITY;
         for (face, bounds) in self.boxes.iter().enumerate() {
             if bounds.squared_distance(p) < least * least {
-                least = least.min(to_face(face));
+                least = least.min(self.distance_to_face(p, face));
             }
         }
         least
     }
 
-    pub(crate) fn winding_number(&self, p: &Point3<f64>) -> i32 {
-        let above = |face: usize| crossing_above(p, self.corners(face));
-        if let Some(tree) = self.tree() {
-            return tree.above(p).map(above).sum();
-        }
-        let reached = (0..self.boxes.len()).filter(|&face| self.boxes[face].reaches_above(p));
-        reached.map(above).sum()
+    /// How often the surface winds round `p`, without a tree.
+    pub(crate) fn winding_number_face_by_face(&self, p: &Point3<f64>) -> i32 {
+        (0..self.boxes.len())
+            .filter(|&face| self.boxes[face].reaches_above(p))
+            .map(|face| self.crossing(p, face))
+            .sum()
+    }
+
+    fn distance_to_face(&self, p: &Point3<f64>, face: usize) -> f64 {
+        distance_to_triangle(p, self.corners(face))
+    }
+
+    fn crossing(&self, p: &Point3<f64>, face: usize) -> i32 {
+        crossing_above(p, self.corners(face))
     }
 }
 

@@ -15,6 +15,8 @@ use crate::linear_algebra::{cholesky, set_product, solve_lower};
 /// The blocks of one set: B and its factor, U and what becomes of it, P̂J, and P̂².
 #[derive(Clone, Debug, Default)]
 pub(super) struct SetWorkspace {
+    /// The first row of each feature among the shared ones.
+    places: Vec<usize>,
     /// B, then L.
     b: Buffer,
     /// U, then L⁻¹U, then X = B⁻¹U.
@@ -47,29 +49,28 @@ impl SetWorkspace {
         self.squared_x.reshape(rows, 12);
         self.pj.reshape(rows, 6);
         self.small.reshape(12, 12);
-        for (column, &to) in visible.iter().enumerate() {
-            let to = 3 * shared.place(to)?;
-            for (row, &from) in visible.iter().enumerate() {
-                let from = 3 * shared.place(from)?;
-                for b in 0..3 {
-                    for a in 0..3 {
-                        let (i, j) = (3 * row + a, 3 * column + b);
-                        self.b[(i, j)] = shared.b[(from + a, to + b)];
-                        self.squared[(i, j)] = shared.squared[(from + a, to + b)];
-                    }
-                }
+        self.places.clear();
+        for &feature in visible {
+            self.places.push(3 * shared.place(feature)?);
+        }
+        for (at, &place) in self.places.iter().enumerate() {
+            for axis in 0..3 {
+                let (to, from) = (3 * at + axis, place + axis);
+                // Of B the factorisation reads the lower triangle only.
+                let below = 3 * at;
+                let column = &mut self.b.col_as_slice_mut(to)[below..];
+                pick(column, shared.b.col_as_slice(from), &self.places[at..]);
+                let column = self.squared.col_as_slice_mut(to);
+                pick(column, shared.squared.col_as_slice(from), &self.places);
             }
         }
-        for (row, &from) in visible.iter().enumerate() {
-            let from = 3 * shared.place(from)?;
-            for a in 0..3 {
-                for j in 0..12 {
-                    self.x[(3 * row + a, j)] = shared.u[(from + a, j)];
-                }
-                for j in 0..6 {
-                    self.pj[(3 * row + a, j)] = shared.pj[(from + a, j)];
-                }
-            }
+        for j in 0..12 {
+            let column = self.x.col_as_slice_mut(j);
+            pick(column, shared.u.col_as_slice(j), &self.places);
+        }
+        for j in 0..6 {
+            let column = self.pj.col_as_slice_mut(j);
+            pick(column, shared.pj.col_as_slice(j), &self.places);
         }
         Ok(())
     }
@@ -126,24 +127,34 @@ impl SetWorkspace {
             1.0,
             Par::Seq,
         );
-        let mut below = 0.0;
-        let mut diagonal = 0.0;
-        for j in 0..self.inverse.ncols() {
-            diagonal += self.inverse[(j, j)] * self.squared[(j, j)];
-            let column = self
-                .inverse
-                .col(j)
-                .subrows(j + 1, self.inverse.nrows() - j - 1);
-            let other = self
-                .squared
-                .col(j)
-                .subrows(j + 1, self.inverse.nrows() - j - 1);
-            below += column
-                .iter()
-                .zip(other.iter())
-                .map(|(a, b)| a * b)
-                .sum::<f64>();
-        }
-        diagonal + 2.0 * below
+        (0..self.inverse.ncols())
+            .map(|j| {
+                let inverse = &self.inverse.col_as_slice(j)[j..];
+                let squared = &self.squared.col_as_slice(j)[j..];
+                2.0 * dot(inverse, squared) - inverse[0] * squared[0]
+            })
+            .sum()
     }
+}
+
+/// Copies three rows from each of the places, one after the other.
+fn pick(to: &mut [f64], from: &[f64], places: &[usize]) {
+    for (to, &place) in to.chunks_exact_mut(3).zip(places) {
+        to.copy_from_slice(&from[place..place + 3]);
+    }
+}
+
+/// aᵀb, in several sums at once.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let (a, a_rest) = a.as_chunks::<LANES>();
+    let (b, b_rest) = b.as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    for (a, b) in a.iter().zip(b) {
+        for lane in 0..LANES {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
 }
