@@ -1,5 +1,6 @@
 //! Tasks of the project: `cargo xtask TASK`.
 
+mod bench_report;
 mod environment;
 mod figures;
 
@@ -9,6 +10,7 @@ use std::process::ExitCode;
 use adslam_cli::{TablesArgs, exit_code, stop_on_ctrl_c, tables};
 use clap::Parser;
 
+use bench_report::BenchReportArgs;
 use environment::Environment;
 use figures::FiguresArgs;
 
@@ -32,6 +34,8 @@ enum Task {
     },
     /// Draw Figures 1–5, and those that the paper lacks, from new runs, as SVG and PNG
     ReproduceFigures(FiguresArgs),
+    /// Run all benchmarks; write results/bench.json and the tables of docs/performance.md
+    BenchReport(BenchReportArgs),
 }
 
 fn main() -> ExitCode {
@@ -53,6 +57,7 @@ fn main() -> ExitCode {
             exit_code(tables(&args, interrupt))
         }
         Task::ReproduceFigures(args) => figures::reproduce(&args, interrupt),
+        Task::BenchReport(args) => bench_report::report(&args),
     }
 }
 

@@ -19,8 +19,7 @@ use adslam_models::FeatureId;
 use common::{CASES, Case, NOISE, Step, belief};
 use criterion::measurement::WallTime;
 use criterion::{
-    BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group,
-    criterion_main,
+    BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
 };
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
@@ -41,18 +40,8 @@ fn contrast_rows(case: Case) -> usize {
     3 * (case.features - 1)
 }
 
-fn group<'a>(criterion: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a, WallTime> {
-    let mut group = criterion.benchmark_group(name);
-    group
-        .sampling_mode(SamplingMode::Flat)
-        .sample_size(10)
-        .warm_up_time(Duration::from_millis(200))
-        .measurement_time(Duration::from_millis(600));
-    group
-}
-
 fn matrix_product(criterion: &mut Criterion) {
-    let mut group = group(criterion, "matrix_product");
+    let mut group = criterion.benchmark_group("matrix_product");
     for case in CASES {
         let n = case.dim();
         group.throughput(Throughput::Elements(2 * (n * n * n) as u64));
@@ -85,7 +74,7 @@ fn filters(case: Case) -> Vec<(&'static str, rayon::ThreadPool, Ekf)> {
 }
 
 fn structure_update(criterion: &mut Criterion) {
-    let mut group = group(criterion, "structure_update");
+    let mut group = criterion.benchmark_group("structure_update");
     for case in CASES {
         let start = belief(case).unwrap();
         let step = Step::new(&start, case, 0);
@@ -108,7 +97,7 @@ fn structure_update(criterion: &mut Criterion) {
 
 /// The propagation is linear in n but for keeping P symmetric, so this and the structure are the step.
 fn feature_update(criterion: &mut Criterion) {
-    let mut group = group(criterion, "feature_update");
+    let mut group = criterion.benchmark_group("feature_update");
     for case in CASES {
         let start = belief(case).unwrap();
         let step = Step::new(&start, case, 0);
@@ -128,7 +117,7 @@ fn feature_update(criterion: &mut Criterion) {
 }
 
 fn ekf_step(criterion: &mut Criterion) {
-    let mut group = group(criterion, "ekf_step");
+    let mut group = criterion.benchmark_group("ekf_step");
     for case in CASES {
         let start = belief(case).unwrap();
         let step = Step::new(&start, case, 0);
@@ -175,11 +164,12 @@ fn bench_textbook(
     });
 }
 
-criterion_group!(
-    benches,
-    matrix_product,
-    feature_update,
-    structure_update,
-    ekf_step
-);
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(600));
+    targets = matrix_product, feature_update, structure_update, ekf_step
+}
 criterion_main!(benches);

@@ -35,6 +35,8 @@ pub struct ActionScorer {
     /// The sets computed so far: where in `sets` each stands, and where in the objective.
     computed: Vec<(usize, SetId)>,
     scores: Vec<Score>,
+    /// Traces computed, the bounds included.
+    traces: usize,
 }
 
 /// Traces nearer to each other than this, relatively, count as equal: mirror images of an action are
@@ -59,6 +61,12 @@ impl ActionScorer {
     #[must_use]
     pub fn scores(&self) -> &[Score] {
         &self.scores
+    }
+
+    /// Additions and multiplications of the last decision, see [`PosteriorTrace::operations`].
+    #[must_use]
+    pub fn operations(&self) -> usize {
+        self.objective.operations(self.traces)
     }
 
     /// The score of the candidate with the smallest trace, the first in the action set among equals;
@@ -86,6 +94,7 @@ impl ActionScorer {
             &self.ids,
         )?;
         self.scores.clear();
+        self.traces = 0;
         self.computed.clear();
         let mut smallest = f64::INFINITY;
         for group in sets.groups() {
@@ -107,10 +116,11 @@ impl ActionScorer {
                     control,
                     pose,
                 } = candidates[place];
-                if let Some(wider) = wider
-                    && self.objective.after(&control, wider)? > smallest * MARGIN
-                {
-                    continue;
+                if let Some(wider) = wider {
+                    self.traces += 1;
+                    if self.objective.after(&control, wider)? > smallest * MARGIN {
+                        continue;
+                    }
                 }
                 let set = match entered {
                     Some(set) => set,
@@ -121,6 +131,7 @@ impl ActionScorer {
                         *entered.insert(added)
                     }
                 };
+                self.traces += 1;
                 let trace = self.objective.after(&control, set)?;
                 self.scores.push(Score { index, pose, trace });
                 smallest = smallest.min(trace);

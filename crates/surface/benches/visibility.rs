@@ -1,6 +1,5 @@
-//! What planning asks of a surface, for the paper's two objects: the polygon of 14 features, and
-//! the hull of 50 features picked from the heart. The whole mesh of the heart stands for the
-//! surfaces that are large enough for a tree of boxes.
+//! What planning asks of a surface: the polygon of 14 features, and hulls of features picked from the
+//! heart. Variants: `fast`, all lines of sight from one place at once; `one_by_one`.
 #![allow(
     clippy::unwrap_used,
     reason = "a failed preparation is a failed benchmark"
@@ -10,24 +9,24 @@
 mod common;
 
 use std::hint::black_box;
-use std::sync::Arc;
 use std::time::Duration;
 
-use adslam_surface::{DEFAULT_PHANTOM_SPACING_CM, Surface, Topology, heart_phantom, pick_features};
+use adslam_surface::{DEFAULT_PHANTOM_SPACING_CM, Fan, Surface, heart_phantom, pick_features};
 use common::Point;
-use criterion::{
-    BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
-};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
-fn objects() -> [(&'static str, Surface); 3] {
+fn objects() -> [(&'static str, Surface); 4] {
     let heart = heart_phantom(DEFAULT_PHANTOM_SPACING_CM).unwrap();
-    let picked = pick_features(&heart, 50, 1).unwrap();
-    let features: Vec<Point> = picked.iter().map(|&i| heart.vertices[i]).collect();
-    let mesh = Arc::new(Topology::from_faces(&heart.vertices, &heart.faces).unwrap());
+    let hull_of = |count| {
+        let picked = pick_features(&heart, count, 1).unwrap();
+        let features: Vec<Point> = picked.iter().map(|&i| heart.vertices[i]).collect();
+        common::hull(&features)
+    };
     [
         ("polygon", common::hull(&common::polygon())),
-        ("heart50", common::hull(&features)),
-        ("heart_mesh", Surface::new(&mesh, &heart.vertices).unwrap()),
+        ("heart50", hull_of(50)),
+        ("heart200", hull_of(200)),
+        ("heart500", hull_of(500)),
     ]
 }
 
@@ -52,54 +51,62 @@ fn viewpoints(surface: &Surface) -> Vec<Point> {
     all
 }
 
+/// All lines of sight from all viewpoints.
 fn visibility(c: &mut Criterion) {
     let mut group = c.benchmark_group("visibility");
-    group
-        .sampling_mode(SamplingMode::Flat)
-        .sample_size(20)
-        .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_millis(700));
-
     for (name, surface) in &objects() {
         let viewpoints = viewpoints(surface);
         let points = surface.points().len();
-
-        // All lines of sight from all viewpoints; a few of them only for the mesh.
-        let stride = points.div_ceil(50);
-        let targets: Vec<usize> = (0..points).step_by(stride).collect();
-        group.throughput(Throughput::Elements(
-            (viewpoints.len() * targets.len()) as u64,
-        ));
-        group.bench_function(BenchmarkId::new("sees", name), |b| {
+        group.throughput(Throughput::Elements((viewpoints.len() * points) as u64));
+        group.bench_function(BenchmarkId::new("fast", name), |b| {
+            let mut fan = Fan::default();
             b.iter(|| {
-                let lines = viewpoints
-                    .iter()
-                    .flat_map(|v| targets.iter().map(move |&i| (v, i)));
-                lines
-                    .filter(|(v, i)| surface.sees(black_box(v), *i))
-                    .count()
+                let seen = |v| fan.seen(surface, black_box(v), 0..points).len();
+                viewpoints.iter().map(seen).sum::<usize>()
             });
         });
-
-        group.throughput(Throughput::Elements(viewpoints.len() as u64));
-        group.bench_function(BenchmarkId::new("signed_distance", name), |b| {
-            b.iter(|| -> f64 {
-                let distances = viewpoints
-                    .iter()
-                    .map(|v| surface.signed_distance(black_box(v)));
-                distances.sum()
+        group.bench_function(BenchmarkId::new("one_by_one", name), |b| {
+            b.iter(|| {
+                let seen = |v| {
+                    (0..points)
+                        .filter(|&i| surface.sees(black_box(v), i))
+                        .count()
+                };
+                viewpoints.iter().map(seen).sum::<usize>()
             });
-        });
-
-        let topology = Arc::new(surface.topology().clone());
-        group.throughput(Throughput::Elements(1));
-        group.bench_function(BenchmarkId::new("surface_new", name), |b| {
-            b.iter(|| Surface::new(&topology, black_box(surface.points())).unwrap());
         });
     }
-
     group.finish();
 }
 
-criterion_group!(benches, visibility);
+/// What else is asked of a surface at every step.
+fn surface(c: &mut Criterion) {
+    let mut group = c.benchmark_group("surface");
+    for (name, surface) in &objects() {
+        let viewpoints = viewpoints(surface);
+        group.throughput(Throughput::Elements(viewpoints.len() as u64));
+        group.bench_function(BenchmarkId::new("signed_distance", name), |b| {
+            b.iter(|| -> f64 {
+                let distance = |v| surface.signed_distance(black_box(v));
+                viewpoints.iter().map(distance).sum()
+            });
+        });
+        group.throughput(Throughput::Elements(1));
+        group.bench_function(BenchmarkId::new("place", name), |b| {
+            let points = surface.points().to_vec();
+            let mut surface = surface.clone();
+            b.iter(|| surface.place(black_box(&points)).unwrap());
+        });
+    }
+    group.finish();
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(20)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_millis(700));
+    targets = visibility, surface
+}
 criterion_main!(benches);

@@ -11,6 +11,11 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::group::VisibleSet;
 
+/// Additions and multiplications of [`ActionTerms::trace`]: two congruences, an elimination of 12 rows of
+/// 24 numbers, the product of the inverse factors, and the trace.
+pub(super) const ACTION_OPERATIONS: usize =
+    2 * (2 * (8 * 27 + 108 + 3 * 216) + 66 * 24 + 78 * 12 + 144);
+
 /// A matrix, row by row.
 type Rows<const R: usize, const C: usize> = [[f64; C]; R];
 

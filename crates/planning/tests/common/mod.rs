@@ -1,4 +1,5 @@
 //! A robot at a small solid, for the tests of planners.
+#![allow(dead_code, reason = "each test file uses a part")]
 
 use std::sync::Arc;
 
