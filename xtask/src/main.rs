@@ -1,5 +1,6 @@
 //! Tasks of the project: `cargo xtask TASK`.
 
+mod docs;
 mod environment;
 mod figures;
 
@@ -32,6 +33,8 @@ enum Task {
     },
     /// Draw Figures 1–5, and those that the paper lacks, from new runs, as SVG and PNG
     ReproduceFigures(FiguresArgs),
+    /// Renew the files made from the code: docs/scenario.md and schemas/
+    Docs,
 }
 
 fn main() -> ExitCode {
@@ -53,12 +56,17 @@ fn main() -> ExitCode {
             exit_code(tables(&args, interrupt))
         }
         Task::ReproduceFigures(args) => figures::reproduce(&args, interrupt),
+        Task::Docs => docs::renew(&workspace()),
     }
 }
 
-/// The configuration of the paper's experiments, wherever the task is started from.
+/// The folder of the workspace, wherever the task is started from.
+fn workspace() -> PathBuf {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
+    folder.unwrap_or(Path::new(".")).to_owned()
+}
+
+/// The configuration of the paper's experiments.
 fn paper() -> PathBuf {
-    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
-    let workspace = workspace.unwrap_or(Path::new("."));
-    workspace.join("configs/paper.toml")
+    workspace().join("configs/paper.toml")
 }

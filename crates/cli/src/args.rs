@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use adslam_experiment::ExperimentError;
+use adslam_experiment::diagnostics::FileKind;
 use adslam_experiment::run::Interrupt;
 use adslam_experiment::scenario::PlannerName;
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 
 use crate::commands;
 
@@ -50,6 +51,38 @@ pub enum Command {
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
     },
+    /// Print the JSON Schema of scenarios or configurations, for editors
+    #[command(
+        after_help = "A TOML file whose first line is `#:schema PATH` is completed and checked by \
+        editors with a TOML language server. docs/scenario.md says more.\n\n\
+        Example:\n  adslam schema scenario > scenario.schema.json"
+    )]
+    Schema {
+        /// The kind of file
+        #[arg(value_name = "KIND")]
+        kind: SchemaKind,
+    },
+}
+
+/// The kinds of files that have a schema.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum SchemaKind {
+    /// What the world is
+    Scenario,
+    /// What is run
+    Config,
+    /// Published results to compare with
+    Published,
+}
+
+impl From<SchemaKind> for FileKind {
+    fn from(kind: SchemaKind) -> Self {
+        match kind {
+            SchemaKind::Scenario => Self::Scenario,
+            SchemaKind::Config => Self::Configuration,
+            SchemaKind::Published => Self::Published,
+        }
+    }
 }
 
 /// `adslam run`
@@ -129,6 +162,10 @@ impl Command {
             Self::Filter(args) => commands::filter(args, interrupt),
             Self::Tables(args) => commands::tables(args, interrupt),
             Self::Check { files } => commands::check(files),
+            Self::Schema { kind } => {
+                commands::schema(*kind);
+                Ok(())
+            }
         }
     }
 }

@@ -19,5 +19,6 @@ mod help;
 mod interrupt;
 mod replay;
 mod run;
+mod schema;
 mod support;
 mod tables;

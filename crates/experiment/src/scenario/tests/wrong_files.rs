@@ -72,7 +72,7 @@ fn a_report_shows_file_line_caret_and_remedy() {
     let report = miette_report(&polygon_with("range_cm = 3.0", "range_cm = -3.0").unwrap_err());
     for part in [
         "-3 is not above 0",
-        "test.toml:52:12",
+        "test.toml:53:12",
         "range_cm = -3.0",
         "here",
         "help: write a number above 0",
