@@ -52,6 +52,7 @@ fn main() -> ExitCode {
                 only: scenario.labels(),
                 mesh,
                 out,
+                json: false,
             };
             exit_code(tables(&args, interrupt))
         }

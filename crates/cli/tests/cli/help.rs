@@ -5,7 +5,18 @@ use super::support::{BAD_INPUT, PLANNERS, Place};
 #[test]
 fn every_command_explains_itself_with_an_example_in_80_columns() {
     let place = Place::new(&[]);
-    for command in ["run", "replay", "filter", "tables", "check", "schema"] {
+    for command in [
+        "run",
+        "replay",
+        "filter",
+        "tables",
+        "check",
+        "schema",
+        "new",
+        "new scenario",
+        "new config",
+        "completions",
+    ] {
         let output = place
             .command(&format!("{command} --help"))
             .output()
@@ -42,7 +53,28 @@ fn wrong_arguments_are_bad_input() {
         "tables config.toml --runs some",
         "filter log.jsonl",
         "check",
+        "schema",
+        "new",
+        "new scenario --scenario scenario.toml",
+        "completions tcsh",
     ] {
         assert_eq!(place.adslam(arguments).code, Some(BAD_INPUT), "{arguments}");
+    }
+}
+
+#[test]
+fn shells_complete_commands_and_planners() {
+    let place = Place::new(&[]);
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = place.succeeds(&format!("completions {shell}")).out;
+        for word in ["replay", "completions", "planner"] {
+            assert!(script.contains(word), "{shell} does not know {word}");
+        }
+        // The others complete no values.
+        if ["bash", "zsh", "fish"].contains(&shell) {
+            for planner in PLANNERS {
+                assert!(script.contains(planner), "{shell} does not know {planner}");
+            }
+        }
     }
 }

@@ -17,6 +17,8 @@ mod filter;
 mod help;
 #[cfg(unix)]
 mod interrupt;
+mod json;
+mod new;
 mod replay;
 mod run;
 mod schema;
