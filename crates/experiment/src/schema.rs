@@ -1,17 +1,20 @@
 //! JSON Schemas of the TOML files, generated from the very types that read them: editors complete
 //! keys with them and show what each means, and `docs/scenario.md` is made of them.
 
+mod advice;
 mod overrides;
+mod paths;
 mod tidy;
 
-use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
+use schemars::{JsonSchema, Schema};
 
 use crate::config::{ConfigFile, Published};
 use crate::diagnostics::FileKind;
 use crate::scenario::Scenario;
 
+pub(crate) use advice::Advice;
 pub(crate) use overrides::overrides;
 
 /// The JSON Schema of a kind of file, in draft 7, which the editors of TOML understand.
@@ -21,13 +24,16 @@ pub(crate) use overrides::overrides;
 /// the file tells.
 #[must_use]
 pub fn json_schema(kind: FileKind) -> Schema {
-    let settings = SchemaSettings::draft07().with_transform(RecursiveTransform(tidy::tidy));
-    let generator = settings.into_generator();
     match kind {
-        FileKind::Scenario => generator.into_root_schema_for::<Scenario>(),
-        FileKind::Configuration => generator.into_root_schema_for::<ConfigFile>(),
-        FileKind::Published => generator.into_root_schema_for::<Published>(),
+        FileKind::Scenario => root_schema::<Scenario>(),
+        FileKind::Configuration => root_schema::<ConfigFile>(),
+        FileKind::Published => root_schema::<Published>(),
     }
+}
+
+fn root_schema<T: JsonSchema>() -> Schema {
+    let settings = SchemaSettings::draft07().with_transform(RecursiveTransform(tidy::tidy));
+    settings.into_generator().into_root_schema_for::<T>()
 }
 
 #[cfg(test)]

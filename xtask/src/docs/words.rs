@@ -114,7 +114,8 @@ fn number(schema: &Value) -> String {
         (true, true) => "number above 0".to_owned(),
         (true, false) => format!("number above 0, up to {most}"),
         (false, true) => format!("number from {least}"),
-        (false, false) => format!("number, {least} to {most}"),
+        // As many digits as tell the limit from another.
+        (false, false) => format!("number, {least} to {}", (most * 1e4).round() / 1e4),
     }
 }
 

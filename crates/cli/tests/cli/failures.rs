@@ -9,10 +9,7 @@ use super::support::{FAILURE, Place, lines, log, polygon};
 /// holds both.
 fn breaking() -> String {
     polygon(&[
-        (
-            "rotation_sigma_rad = 0.02",
-            "rotation_sigma_rad = 1000000.0",
-        ),
+        ("rotation_sigma_rad = 0.02", "rotation_sigma_rad = 3.0"),
         (
             "translation_sigma_cm = 0.03",
             "translation_sigma_cm = 1000000.0",

@@ -79,20 +79,55 @@ pub(super) fn find<'a, 'i>(root: &'a DeTable<'i>, path: &[Step]) -> Option<Place
     Some(place)
 }
 
-/// The keys of the table, at any depth outside arrays, that stands at `span`.
-pub(super) fn keys_of_table_at<'a>(table: &'a DeTable<'_>, span: &Range<usize>) -> Vec<&'a str> {
-    for (_, value) in table {
-        if let DeValue::Table(inner) = value.get_ref() {
-            if value.span() == *span {
-                return inner.keys().map(|key| &**key.get_ref()).collect();
-            }
-            let found = keys_of_table_at(inner, span);
-            if !found.is_empty() {
-                return found;
+/// The path of the table that stands at `span` or else has a key there, and the table; the root where
+/// there is none.
+pub(super) fn table_at_span<'a, 'i>(
+    root: &'a DeTable<'i>,
+    span: &Range<usize>,
+) -> (String, &'a DeTable<'i>) {
+    let mut tables = Vec::new();
+    tables_below(root, "", &mut tables);
+    // A table whose head is nowhere written stands where its key does, so it is looked for first.
+    let has_key = |table: &DeTable<'_>| table.keys().any(|key| key.span() == *span);
+    tables
+        .iter()
+        .find(|(_, place, _)| place == span)
+        .or_else(|| tables.iter().find(|(_, _, table)| has_key(table)))
+        .map_or((String::new(), root), |(path, _, table)| {
+            (path.clone(), *table)
+        })
+}
+
+/// Every table below `table`, which is at `path`: its path, its place and itself.
+fn tables_below<'a, 'i>(
+    table: &'a DeTable<'i>,
+    path: &str,
+    tables: &mut Vec<(String, Range<usize>, &'a DeTable<'i>)>,
+) {
+    let dot = if path.is_empty() { "" } else { "." };
+    for (key, value) in table {
+        let path = format!("{path}{dot}{}", key.get_ref());
+        note_tables(value, &path, tables);
+    }
+}
+
+fn note_tables<'a, 'i>(
+    value: &'a Spanned<DeValue<'i>>,
+    path: &str,
+    tables: &mut Vec<(String, Range<usize>, &'a DeTable<'i>)>,
+) {
+    match value.get_ref() {
+        DeValue::Table(table) => {
+            tables.push((path.to_owned(), value.span(), table));
+            tables_below(table, path, tables);
+        }
+        DeValue::Array(array) => {
+            for (index, element) in array.iter().enumerate() {
+                note_tables(element, &format!("{path}[{index}]"), tables);
             }
         }
+        _ => {}
     }
-    Vec::new()
 }
 
 fn child<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> Option<Place<'a, 'i>> {

@@ -3,14 +3,14 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::values::{NonNegative, Positive, Truncation};
+use super::values::{AngleSigma, NonNegative, Positive, Truncation};
 
 /// The noise of the world: Gaussian, independent in each component. 0 is no noise.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Noise {
     /// Of each Euler angle of a motion of the robot, each step: w^Ω of eq. (2) (rad).
-    pub rotation_sigma_rad: NonNegative,
+    pub rotation_sigma_rad: AngleSigma,
     /// Of each coordinate of a motion of the robot, each step: w^v of eq. (2) (cm).
     pub translation_sigma_cm: NonNegative,
     /// σ_t, of the object's translation, for each feature; adds up from step to step (cm).
@@ -44,7 +44,7 @@ pub enum DeformationNoise {
 #[serde(deny_unknown_fields, default)]
 pub struct Filter {
     /// Of each Euler angle of a motion of the robot, each step (rad). Default: that of `noise`.
-    pub rotation_sigma_rad: Option<NonNegative>,
+    pub rotation_sigma_rad: Option<AngleSigma>,
     /// Of each coordinate of a motion of the robot, each step (cm). Default: that of `noise`.
     pub translation_sigma_cm: Option<NonNegative>,
     /// σ_t, of the object's translation, for each feature (cm). Default: that of `noise`.
@@ -112,7 +112,7 @@ impl Filter {
             noise.feature_measurement_sigma_cm,
         );
         FilterNoise {
-            rotation_sigma_rad: or(self.rotation_sigma_rad, noise.rotation_sigma_rad),
+            rotation_sigma_rad: *self.rotation_sigma_rad.unwrap_or(noise.rotation_sigma_rad),
             translation_sigma_cm: or(self.translation_sigma_cm, noise.translation_sigma_cm),
             feature_translation_sigma_cm: or(
                 self.feature_translation_sigma_cm,

@@ -55,7 +55,12 @@ fn an_empty_file_is_called_so() {
 
 #[test]
 fn bad_syntax_is_shown_where_it_is() {
-    assert_error(parsed("name = \n"), "string values must be quoted", "", "");
+    assert_error(
+        parsed("name = \n"),
+        "neither a number nor a text in quotes",
+        "",
+        "",
+    );
     assert_error(
         parsed("name = \"a\nsteps = 4"),
         "invalid basic string",

@@ -1,6 +1,7 @@
 //! Real numbers within bounds.
 
 use std::borrow::Cow;
+use std::f64::consts::PI;
 use std::fmt;
 use std::ops::{Deref, RangeInclusive};
 
@@ -117,6 +118,14 @@ number!(
     or_zero: true,
     "0 or a number above it, such as 0.02",
     "is below 0, or too near to it"
+);
+number!(
+    /// The sigma of an angle in radians: 0, or up to half a turn.
+    AngleSigma,
+    SMALLEST..=PI,
+    or_zero: true,
+    "0 or a number of radians up to 3.14, such as 0.02 (1 degree is 0.01745)",
+    "is below 0, or more than half a turn"
 );
 number!(
     /// A part of a whole: above 0, at most 1.
