@@ -25,8 +25,10 @@ impl Answer {
         json: bool,
         work: impl FnOnce(&mut Self) -> Result<(), ExperimentError>,
     ) -> Result<(), ExperimentError> {
+        // It comes first, however the work ends.
+        let begun = || Map::from_iter([("ok".to_owned(), Value::Null)]);
         let mut answer = Self {
-            object: json.then(Map::new),
+            object: json.then(begun),
         };
         let result = work(&mut answer);
         if let Some(mut object) = answer.object {
@@ -64,6 +66,9 @@ impl Answer {
     /// Warnings, for both.
     pub(crate) fn warn(&mut self, warnings: &[String]) {
         warn(warnings);
+        if warnings.is_empty() {
+            return;
+        }
         if let Some(object) = &mut self.object {
             let told = object.entry("warnings").or_insert_with(|| json!([]));
             if let Value::Array(told) = told {

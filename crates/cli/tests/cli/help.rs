@@ -1,22 +1,29 @@
 //! Help and arguments.
 
-use super::support::{BAD_INPUT, PLANNERS, Place};
+use std::fs;
+
+use adslam_cli::Arguments;
+use clap::CommandFactory;
+
+use super::support::{BAD_INPUT, PLANNERS, Place, repository};
+
+/// Every command and subcommand, as it is written.
+fn commands() -> Vec<String> {
+    let mut commands = Vec::new();
+    for command in Arguments::command().get_subcommands() {
+        let name = command.get_name();
+        commands.push(name.to_owned());
+        let below = command.get_subcommands();
+        commands.extend(below.map(|below| format!("{name} {}", below.get_name())));
+    }
+    assert!(commands.iter().any(|command| command == "new config"));
+    commands
+}
 
 #[test]
 fn every_command_explains_itself_with_an_example_in_80_columns() {
     let place = Place::new(&[]);
-    for command in [
-        "run",
-        "replay",
-        "filter",
-        "tables",
-        "check",
-        "schema",
-        "new",
-        "new scenario",
-        "new config",
-        "completions",
-    ] {
+    for command in commands() {
         let output = place
             .command(&format!("{command} --help"))
             .output()
@@ -76,5 +83,20 @@ fn shells_complete_commands_and_planners() {
                 assert!(script.contains(planner), "{shell} does not know {planner}");
             }
         }
+    }
+}
+
+#[test]
+fn every_command_is_documented() {
+    let read = |path: &str| fs::read_to_string(repository(path)).unwrap();
+    let (readme, reference) = (read("README.md"), read("docs/command.md"));
+    for command in commands() {
+        let name = command.split(' ').next().unwrap();
+        assert!(
+            readme.contains(&format!("adslam {name} ")),
+            "README: {name}"
+        );
+        let entry = format!("`adslam {command}");
+        assert!(reference.contains(&entry), "docs/command.md: {command}");
     }
 }
