@@ -9,6 +9,9 @@ use indicatif::ProgressBar;
 use crate::answer::Answer;
 use crate::{RunArgs, progress};
 
+const UNSEEN: &str = "the robot saw no feature in the whole run; is the object where it should be? \
+    adslam replay shows it";
+
 /// Runs one planner once and writes the run into a folder.
 ///
 /// # Errors
@@ -45,6 +48,9 @@ fn run_once(
     let mut files = observer.recorder.commit(&outcome.summary)?;
     files.extend(args.html.then_some(page));
     let summary = &outcome.summary;
+    if summary.observed == 0 {
+        answer.warn(&[UNSEEN.to_owned()]);
+    }
     let coverage = summary
         .steps_to_full_coverage
         .map_or("not all seen".to_owned(), |step| {

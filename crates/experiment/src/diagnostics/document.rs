@@ -151,10 +151,10 @@ impl Document {
         let root = toml::Spanned::new(0..0, tables.clone());
         T::deserialize(Deserializer::from(root)).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
-            let (path, table) = key_path::table_at_span(&tables, &span);
+            let (path, keys) = key_path::at_span(&tables, &span);
             let place = Surroundings {
-                keys: table.keys().map(|key| &**key.get_ref()).collect(),
-                table: &path,
+                path: &path,
+                keys,
                 advice: &Advice::of::<T>(),
             };
             self.error_in(span, "")

@@ -14,9 +14,9 @@ pub(super) struct Explanation {
 /// What is around the place that an error points at.
 #[derive(Debug)]
 pub(super) struct Surroundings<'a> {
-    /// Path of the table that is to blame, or whose key is.
-    pub(super) table: &'a str,
-    /// The keys that the table has.
+    /// Path of the value that is to blame, or of the table whose key is.
+    pub(super) path: &'a str,
+    /// The keys that are there, if it is a table.
     pub(super) keys: Vec<&'a str>,
     /// What belongs into such a file.
     pub(super) advice: &'a Advice,
@@ -59,20 +59,20 @@ pub(super) fn explain(error: &toml::de::Error, place: &Surroundings<'_>) -> Expl
     {
         let message = format!("the key `{missing}` is missing");
         let at_root = error.span().is_none_or(|span| span == (0..0));
-        let (label, where_to) = if at_root {
-            (
-                "in the file's own keys",
-                "above the first [table], or as a [table] of its own",
-            )
+        let label = if at_root {
+            "in the file's own keys"
         } else {
-            ("in this part", "here")
+            "in this part"
         };
-        let help = format!("add `{missing} = …` {where_to}");
-        return explanation(message, label, place.with_meaning(help, missing));
+        return explanation(message, label, place.missing(missing));
     }
     if text.starts_with("wanted exactly 1 element") || text == "wanted string or table" {
         let message = "exactly one choice must be made here".to_owned();
         return explanation(message, "in this part", place.choice());
+    }
+    if text.ends_with("expected newtype variant") {
+        let message = "this choice is a table with keys of its own".to_owned();
+        return explanation(message, "a word alone", place.choice());
     }
     if let Some((wrong, expected)) = text
         .strip_prefix("invalid type: ")
@@ -137,19 +137,36 @@ impl Surroundings<'_> {
     /// Where the unknown word belongs, if it is a key elsewhere; else "did you mean `x`?", where one
     /// of the known words is close; and the list of those.
     fn suggestion(&self, unknown: &str, known: &[&str], kind: &str) -> String {
-        let elsewhere = self.advice.tables_with(unknown, self.table);
+        let elsewhere = self.advice.tables_with(unknown, self.path);
         if elsewhere.is_empty() {
             return suggestion(unknown, known, kind);
         }
-        let tables: Vec<String> = elsewhere.iter().map(|table| format!("[{table}]")).collect();
-        let (tables, list) = (tables.join(" or "), in_backticks(known));
-        format!("`{unknown}` belongs into {tables}; the {kind} here: {list}")
+        let places: Vec<String> = elsewhere
+            .iter()
+            .map(|table| match *table {
+                "" => "the file's own keys, above the first [table]".to_owned(),
+                table => format!("[{table}]"),
+            })
+            .collect();
+        let (places, list) = (places.join(" or "), in_backticks(known));
+        format!("`{unknown}` belongs into {places}; the {kind} here: {list}")
     }
 
-    /// The help, and what the key that it speaks of means.
-    fn with_meaning(&self, help: String, key: &str) -> String {
-        let dot = if self.table.is_empty() { "" } else { "." };
-        match self.advice.meaning(&format!("{}{dot}{key}", self.table)) {
+    /// What to add where a key is missing, and what it means.
+    fn missing(&self, key: &str) -> String {
+        let dot = if self.path.is_empty() { "" } else { "." };
+        let path = format!("{}{dot}{key}", self.path);
+        let tables = self.tables_at(&path);
+        let help = if !tables.is_empty() {
+            format!("add one of {}", tables.join(", "))
+        } else if self.advice.is_table(&path) {
+            format!("add a table [{path}]")
+        } else if self.path.is_empty() {
+            format!("add `{key} = …` above the first [table]")
+        } else {
+            format!("add `{key} = …` here")
+        };
+        match self.advice.meaning(&path) {
             Some(meaning) => format!("{help}. {meaning}"),
             None => help,
         }
@@ -157,22 +174,20 @@ impl Surroundings<'_> {
 
     /// Which choice can be made.
     fn choice(&self) -> String {
-        let table = self.table;
-        let tables = self.advice.choices_at(table);
-        let chosen: Vec<&str> = self
-            .keys
-            .iter()
-            .copied()
-            .filter(|key| tables.contains(key))
-            .collect();
+        let choices = self.advice.choices_at(self.path);
+        let mut chosen = self.keys.clone();
+        chosen.retain(|key| choices.contains(key));
         if chosen.len() > 1 {
-            return format!("keep one of {}", in_backticks(&chosen));
+            format!("keep one of {}", in_backticks(&chosen))
+        } else {
+            format!("write one of {}", self.tables_at(self.path).join(", "))
         }
-        let tables: Vec<String> = tables
-            .iter()
-            .map(|choice| format!("[{table}.{choice}]"))
-            .collect();
-        format!("write one of {}", tables.join(", "))
+    }
+
+    /// The heads of the tables that may be chosen at a path.
+    fn tables_at(&self, path: &str) -> Vec<String> {
+        let choices = self.advice.choices_at(path).into_iter();
+        choices.map(|choice| format!("[{path}.{choice}]")).collect()
     }
 }
 

@@ -79,55 +79,56 @@ pub(super) fn find<'a, 'i>(root: &'a DeTable<'i>, path: &[Step]) -> Option<Place
     Some(place)
 }
 
-/// The path of the table that stands at `span` or else has a key there, and the table; the root where
-/// there is none.
-pub(super) fn table_at_span<'a, 'i>(
-    root: &'a DeTable<'i>,
-    span: &Range<usize>,
-) -> (String, &'a DeTable<'i>) {
-    let mut tables = Vec::new();
-    tables_below(root, "", &mut tables);
-    // A table whose head is nowhere written stands where its key does, so it is looked for first.
+/// The path of the value that stands at `span`, or of the table that has a key there, and the keys of
+/// that table; the root where there is none.
+pub(super) fn at_span<'a>(root: &'a DeTable<'_>, span: &Range<usize>) -> (String, Vec<&'a str>) {
+    let mut values = Vec::new();
+    values_below(root, "", &mut values);
+    let table = |value: &'a Spanned<DeValue<'_>>| value.get_ref().as_table();
     let has_key = |table: &DeTable<'_>| table.keys().any(|key| key.span() == *span);
-    tables
+    // A table whose head is nowhere written stands where its key does, so values go first.
+    let (path, table) = values
         .iter()
-        .find(|(_, place, _)| place == span)
-        .or_else(|| tables.iter().find(|(_, _, table)| has_key(table)))
-        .map_or((String::new(), root), |(path, _, table)| {
-            (path.clone(), *table)
+        .find(|(_, value)| value.span() == *span)
+        .or_else(|| {
+            values
+                .iter()
+                .find(|(_, value)| table(value).is_some_and(has_key))
         })
+        .map_or((String::new(), Some(root)), |(path, value)| {
+            (path.clone(), table(value))
+        });
+    let keys = table.into_iter().flat_map(DeTable::keys);
+    (path, keys.map(|key| &**key.get_ref()).collect())
 }
 
-/// Every table below `table`, which is at `path`: its path, its place and itself.
-fn tables_below<'a, 'i>(
+/// Every value below `table`, which is at `path`.
+fn values_below<'a, 'i>(
     table: &'a DeTable<'i>,
     path: &str,
-    tables: &mut Vec<(String, Range<usize>, &'a DeTable<'i>)>,
+    values: &mut Vec<(String, &'a Spanned<DeValue<'i>>)>,
 ) {
     let dot = if path.is_empty() { "" } else { "." };
     for (key, value) in table {
-        let path = format!("{path}{dot}{}", key.get_ref());
-        note_tables(value, &path, tables);
+        note_value(value, format!("{path}{dot}{}", key.get_ref()), values);
     }
 }
 
-fn note_tables<'a, 'i>(
+fn note_value<'a, 'i>(
     value: &'a Spanned<DeValue<'i>>,
-    path: &str,
-    tables: &mut Vec<(String, Range<usize>, &'a DeTable<'i>)>,
+    path: String,
+    values: &mut Vec<(String, &'a Spanned<DeValue<'i>>)>,
 ) {
     match value.get_ref() {
-        DeValue::Table(table) => {
-            tables.push((path.to_owned(), value.span(), table));
-            tables_below(table, path, tables);
-        }
+        DeValue::Table(table) => values_below(table, &path, values),
         DeValue::Array(array) => {
             for (index, element) in array.iter().enumerate() {
-                note_tables(element, &format!("{path}[{index}]"), tables);
+                note_value(element, format!("{path}[{index}]"), values);
             }
         }
         _ => {}
     }
+    values.push((path, value));
 }
 
 fn child<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> Option<Place<'a, 'i>> {

@@ -23,17 +23,14 @@ impl Advice {
         Self { root, paths }
     }
 
-    /// The tables that have a key of this name: those below `table` or, where there is none, all.
+    /// The tables that have a key of this name, the root being "": those below `table` or, where
+    /// there is none, all.
     pub(crate) fn tables_with(&self, key: &str, table: &str) -> Vec<&str> {
-        let parent = |path: &'_ String| {
-            let parent = path.len().checked_sub(key.len() + 1)?;
-            (path.ends_with(key) && path.as_bytes().get(parent) == Some(&b'.')).then_some(parent)
-        };
-        let all: Vec<&str> = self
-            .paths
-            .iter()
-            .filter_map(|(path, _)| path.get(..parent(path)?))
-            .collect();
+        let parents = self.paths.iter().filter_map(|(path, _)| {
+            let (parent, last) = path.rsplit_once('.').unwrap_or(("", path));
+            (last == key).then_some(parent)
+        });
+        let all: Vec<&str> = parents.collect();
         let below = |path: &&str| {
             path.strip_prefix(table)
                 .is_some_and(|rest| rest.starts_with('.'))
@@ -50,6 +47,12 @@ impl Advice {
             .and_then(|schema| schema["properties"].as_object())
             .map(|tables| tables.keys().map(String::as_str).collect())
             .unwrap_or_default()
+    }
+
+    /// Whether the key at a path is a table.
+    pub(crate) fn is_table(&self, path: &str) -> bool {
+        let schema = self.at(path).map(|schema| resolved(&self.root, schema));
+        schema.is_some_and(|schema| schema["type"] == "object")
     }
 
     /// What the key at a path means.
@@ -84,6 +87,8 @@ mod tests {
             ["motion.translation.back_and_forth"]
         );
         assert_eq!(advice.tables_with("phantom", ""), ["object"]);
+        assert_eq!(advice.tables_with("steps", "robot"), [""]);
+        assert!(advice.is_table("noise") && !advice.is_table("steps"));
         assert!(advice.tables_with("colour", "").is_empty());
         assert_eq!(advice.choices_at("object"), ["points", "mesh", "phantom"]);
         assert!(advice.choices_at("sensor").is_empty());

@@ -83,11 +83,24 @@ fn places() {
 
 #[test]
 fn no_choice() {
-    let error = super::parsed("name = \"a\"\nsteps = 3\n[object]\n").unwrap_err();
-    let remedy = error.remedy().unwrap();
+    let remedy = |more: &str| {
+        let error = super::parsed(&format!("name = \"a\"\nsteps = 3\n{more}")).unwrap_err();
+        error.remedy().unwrap().to_owned()
+    };
     assert_eq!(
-        remedy,
+        remedy("[object]\n"),
         "write one of [object.points], [object.mesh], [object.phantom]"
+    );
+    assert!(remedy("").starts_with("add one of [object.points], "));
+    assert!(remedy("[object.phantom]\n").starts_with("add a table [noise]. "));
+    assert_eq!(
+        remedy("[motion]\ntranslation = \"sinusoid\"\n"),
+        "write one of [motion.translation.back_and_forth], [motion.translation.sinusoid]"
+    );
+    assert_eq!(
+        remedy("[object.phantom]\nsteps = 5\n"),
+        "`steps` belongs into the file's own keys, above the first [table]; the keys here: \
+         `features`, `feature_seed`, `spacing_cm`"
     );
 }
 

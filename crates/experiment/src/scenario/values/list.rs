@@ -159,7 +159,7 @@ impl<T> TryFrom<Vec<T>> for List<T> {
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for List<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let expects = "a list in brackets, such as [1.0, 2.0]";
+        let expects = "a list in brackets, such as [1.0, 2.0] or [\"a\", \"b\"]";
         deserializer.deserialize_any(SequenceVisitor {
             expects,
             of: PhantomData,
