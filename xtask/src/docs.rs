@@ -41,7 +41,7 @@ pub fn renew(workspace: &Path) -> ExitCode {
 
 /// The files whose content is not what the code makes, with what it makes.
 fn stale(workspace: &Path) -> Result<Vec<(PathBuf, String)>, String> {
-    let schemas: Vec<Value> = KINDS.map(|kind| json_schema(kind).to_value()).into();
+    let schemas: Vec<Value> = KINDS.map(json_schema).into();
     let mut files = vec![(
         workspace.join("docs/scenario.md"),
         reference::render(TEMPLATE, &schemas)?,

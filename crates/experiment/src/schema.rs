@@ -6,9 +6,10 @@ mod overrides;
 mod paths;
 mod tidy;
 
+use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
-use schemars::{JsonSchema, Schema};
+use serde_json::Value;
 
 use crate::config::{ConfigFile, Published};
 use crate::diagnostics::FileKind;
@@ -23,7 +24,7 @@ pub(crate) use overrides::overrides;
 /// value. What several keys must agree on, and what a file refers to, is beyond it: only reading
 /// the file tells.
 #[must_use]
-pub fn json_schema(kind: FileKind) -> Schema {
+pub fn json_schema(kind: FileKind) -> Value {
     match kind {
         FileKind::Scenario => root_schema::<Scenario>(),
         FileKind::Configuration => root_schema::<ConfigFile>(),
@@ -31,24 +32,21 @@ pub fn json_schema(kind: FileKind) -> Schema {
     }
 }
 
-fn root_schema<T: JsonSchema>() -> Schema {
+fn root_schema<T: JsonSchema>() -> Value {
     let settings = SchemaSettings::draft07().with_transform(RecursiveTransform(tidy::tidy));
-    settings.into_generator().into_root_schema_for::<T>()
+    settings
+        .into_generator()
+        .into_root_schema_for::<T>()
+        .to_value()
 }
 
 #[cfg(test)]
 mod tests {
-    use serde_json::Value;
-
     use super::*;
-
-    fn schema(kind: FileKind) -> Value {
-        json_schema(kind).to_value()
-    }
 
     #[test]
     fn ranges_defaults_and_what_must_be_there_are_those_of_the_reader() {
-        let schema = schema(FileKind::Scenario);
+        let schema = json_schema(FileKind::Scenario);
         let phantom = &schema["definitions"]["Phantom"]["properties"];
         assert_eq!(phantom["features"]["minimum"], 4);
         assert_eq!(phantom["features"]["maximum"], 2000);
@@ -63,7 +61,7 @@ mod tests {
 
     #[test]
     fn an_override_has_the_schema_of_the_key_it_sets() {
-        let schema = schema(FileKind::Configuration);
+        let schema = json_schema(FileKind::Configuration);
         let set = &schema["definitions"]["Experiment"]["properties"]["set"];
         let sigma = &set["properties"]["noise.rotation_sigma_rad"];
         assert_eq!(sigma["minimum"], 0.0);
@@ -78,7 +76,7 @@ mod tests {
 
     #[test]
     fn choices_are_told_apart_by_their_keys() {
-        let definitions = &schema(FileKind::Scenario)["definitions"];
+        let definitions = &json_schema(FileKind::Scenario)["definitions"];
         let object = &definitions["Object"];
         assert_eq!(object["maxProperties"], 1);
         assert!(object["properties"]["phantom"]["description"].is_string());
@@ -96,7 +94,7 @@ mod tests {
             FileKind::Configuration,
             FileKind::Published,
         ] {
-            let text = json_schema(kind).to_value().to_string();
+            let text = json_schema(kind).to_string();
             assert!(!text.contains("null"), "{text}");
         }
     }

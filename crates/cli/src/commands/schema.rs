@@ -14,5 +14,5 @@ pub fn schema(kind: SchemaKind) {
 /// The JSON Schema of a kind of file as text that ends with a line break, as files do.
 #[must_use]
 pub fn schema_text(kind: FileKind) -> String {
-    format!("{:#}\n", json_schema(kind).to_value())
+    format!("{:#}\n", json_schema(kind))
 }

@@ -50,10 +50,10 @@ fn run_all(
         md.display(),
         json.display()
     ));
-    if tables.interrupted {
-        for failure in &tables.failures {
-            tell(format_args!("a run failed: {failure}"));
-        }
+    if tables.interrupted && !tables.failures.is_empty() {
+        // The interruption is what the command ends with, and tells nothing of these.
+        let failures = tables.failures.clone();
+        tell(ExperimentError::Runs { failures });
     }
     tables.into_result()
 }

@@ -7,7 +7,7 @@ use super::support::{FAILURE, Place, lines, log, polygon};
 
 /// Motion noise and measurement noise fifteen orders of magnitude apart: no covariance of doubles
 /// holds both.
-fn breaking() -> String {
+pub fn breaking() -> String {
     polygon(&[
         ("rotation_sigma_rad = 0.02", "rotation_sigma_rad = 3.0"),
         (

@@ -16,7 +16,7 @@ pub(crate) struct Advice {
 impl Advice {
     /// The keys of the files that are read as a `T`.
     pub(crate) fn of<T: JsonSchema>() -> Self {
-        let root = root_schema::<T>().to_value();
+        let root = root_schema::<T>();
         let mut paths = paths(&root);
         // Overrides are paths themselves.
         paths.retain(|(path, _)| !path.contains("].set."));
