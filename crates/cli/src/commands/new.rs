@@ -66,7 +66,7 @@ fn write(
 /// The configuration at `out`, of a scenario or, if none is given, of the `scenario.toml` beside it.
 fn configuration(out: &Path, scenario: Option<&Path>) -> Result<String, InputError> {
     let folder = folder_of(out);
-    let beside = folder.join("scenario.toml");
+    let beside = out.with_file_name("scenario.toml");
     let path = scenario.unwrap_or(&beside);
     if !path.exists() {
         let message = format!("there is no scenario {}", path.display());

@@ -97,8 +97,8 @@ fn a_configuration_finds_its_scenario() {
     place.refuses(
         "new config",
         &[
-            "there is no scenario ./scenario.toml",
-            "adslam new scenario --out ./scenario.toml",
+            "there is no scenario scenario.toml",
+            "adslam new scenario --out scenario.toml",
         ],
     );
     place.succeeds("new scenario --out worlds/mine.toml");

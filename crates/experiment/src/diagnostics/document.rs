@@ -62,7 +62,7 @@ impl Document {
         if tables.is_empty() {
             let message = format!("{} has no keys", path.display());
             return Err(InputError::about_file(path, message).with_help(
-                "docs/scenario.md says what belongs into scenarios and configurations",
+                "`adslam new scenario` and `adslam new config` write files to start from",
             ));
         }
         drop(tables);
