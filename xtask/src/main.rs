@@ -1,6 +1,7 @@
 //! Tasks of the project: `cargo xtask TASK`.
 
 mod bench_report;
+mod docs;
 mod environment;
 mod figures;
 
@@ -36,6 +37,8 @@ enum Task {
     ReproduceFigures(FiguresArgs),
     /// Run all benchmarks; write results/bench.json and the tables of docs/performance.md
     BenchReport(BenchReportArgs),
+    /// Renew the files made from the code: docs/scenario.md and schemas/
+    Docs,
 }
 
 fn main() -> ExitCode {
@@ -53,17 +56,23 @@ fn main() -> ExitCode {
                 only: scenario.labels(),
                 mesh,
                 out,
+                json: false,
             };
             exit_code(tables(&args, interrupt))
         }
         Task::ReproduceFigures(args) => figures::reproduce(&args, interrupt),
         Task::BenchReport(args) => bench_report::report(&args),
+        Task::Docs => docs::renew(&workspace()),
     }
 }
 
-/// The configuration of the paper's experiments, wherever the task is started from.
+/// The folder of the workspace, wherever the task is started from.
+fn workspace() -> PathBuf {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
+    folder.unwrap_or(Path::new(".")).to_owned()
+}
+
+/// The configuration of the paper's experiments.
 fn paper() -> PathBuf {
-    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
-    let workspace = workspace.unwrap_or(Path::new("."));
-    workspace.join("configs/paper.toml")
+    workspace().join("configs/paper.toml")
 }

@@ -3,11 +3,34 @@
 use std::path::PathBuf;
 
 use adslam_experiment::ExperimentError;
+use adslam_experiment::diagnostics::FileKind;
 use adslam_experiment::run::Interrupt;
 use adslam_experiment::scenario::PlannerName;
-use clap::{Args, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 
 use crate::commands;
+use crate::planner::PlannerParser;
+
+/// The whole command line.
+#[derive(Debug, Parser)]
+#[command(
+    name = "adslam",
+    version,
+    about = "Active SLAM in deforming 3D environments",
+    long_about = "Plans the motion of a robot that maps an object which moves and deforms, in \
+                  simulation, and filters recorded logs.\n\nExit codes: 0 all went well, 1 the \
+                  work failed, 2 the input cannot be used, 130 interrupted.",
+    after_help = "Try:\n  adslam run scenarios/polygon.toml --planner combined --seed 1 --out run\n  \
+                  adslam tables configs/paper.toml --out results\n  \
+                  adslam check scenarios/*.toml configs/*.toml\n  \
+                  adslam new scenario --out mine.toml"
+)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
 
 /// What to do.
 #[derive(Debug, Subcommand)]
@@ -45,11 +68,97 @@ pub enum Command {
     Tables(TablesArgs),
     /// Say whether scenarios and configurations are valid, and what is wrong with them
     #[command(after_help = "Example:\n  adslam check scenarios/*.toml configs/*.toml")]
-    Check {
-        /// Scenario, configuration and published-table files
-        #[arg(required = true, value_name = "FILE")]
-        files: Vec<PathBuf>,
+    Check(CheckArgs),
+    /// Write a commented scenario or configuration to start from
+    #[command(subcommand, after_help = "Example:\n  adslam new scenario")]
+    New(NewFile),
+    /// Print the JSON Schema of scenarios or configurations, for editors
+    #[command(
+        after_help = "A TOML file whose first line is `#:schema PATH` is completed and checked by \
+        editors with a TOML language server. docs/scenario.md says more.\n\n\
+        Example:\n  adslam schema scenario > scenario.schema.json"
+    )]
+    Schema {
+        /// The kind of file
+        #[arg(value_name = "KIND")]
+        kind: SchemaKind,
     },
+    /// Print a script that makes a shell complete the arguments of this command
+    #[command(
+        after_help = "Where the script belongs depends on the shell; bash, for one, reads it there:\n  \
+        adslam completions bash > ~/.local/share/bash-completion/completions/adslam\n\n\
+        Example:\n  adslam completions zsh > ~/.zfunc/_adslam"
+    )]
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+}
+
+/// `adslam check`
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    /// Scenario, configuration and published-table files
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Answer with one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `adslam new`
+#[derive(Debug, Subcommand)]
+pub enum NewFile {
+    /// A scenario: what the world is
+    #[command(after_help = "Example:\n  adslam new scenario --out scenarios/mine.toml")]
+    Scenario(NewArgs),
+    /// A configuration: which planners run in which scenarios, and how often
+    #[command(
+        after_help = "Example:\n  adslam new config --scenario scenarios/mine.toml --out configs/mine.toml"
+    )]
+    Config {
+        /// Where, and how to answer
+        #[command(flatten)]
+        args: NewArgs,
+        /// The scenario to run; where not given, the scenario.toml beside the configuration
+        #[arg(long, value_name = "FILE")]
+        scenario: Option<PathBuf>,
+    },
+}
+
+/// `adslam new scenario`, and what `adslam new config` has in common with it
+#[derive(Debug, Args)]
+pub struct NewArgs {
+    /// The file to write; where not given, scenario.toml or config.toml
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Replace what is there
+    #[arg(long)]
+    pub force: bool,
+    /// Answer with one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// The kinds of files that have a schema.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum SchemaKind {
+    /// What the world is
+    Scenario,
+    /// What is run
+    Config,
+    /// Published results to compare with
+    Published,
+}
+
+impl From<SchemaKind> for FileKind {
+    fn from(kind: SchemaKind) -> Self {
+        match kind {
+            SchemaKind::Scenario => Self::Scenario,
+            SchemaKind::Config => Self::Configuration,
+            SchemaKind::Published => Self::Published,
+        }
+    }
 }
 
 /// `adslam run`
@@ -57,8 +166,8 @@ pub enum Command {
 pub struct RunArgs {
     /// The scenario file: what the world is
     pub scenario: PathBuf,
-    /// predetermined, local, global or combined
-    #[arg(long, value_name = "NAME")]
+    /// The planner
+    #[arg(long, value_name = "NAME", value_parser = PlannerParser)]
     pub planner: PlannerName,
     /// Seed of all noise; every planner meets the same noise at the same seed
     #[arg(long, default_value_t = 1, value_name = "N")]
@@ -72,6 +181,9 @@ pub struct RunArgs {
     /// Write replay.html too, a page to open in a browser
     #[arg(long)]
     pub html: bool,
+    /// Answer with one JSON object
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `adslam replay`
@@ -83,6 +195,9 @@ pub struct ReplayArgs {
     /// The page to write
     #[arg(long, default_value = "replay.html", value_name = "FILE")]
     pub out: PathBuf,
+    /// Answer with one JSON object
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `adslam filter`
@@ -96,6 +211,9 @@ pub struct FilterArgs {
     /// At a line that cannot be used, keep the estimates up to the line before
     #[arg(long)]
     pub keep_complete: bool,
+    /// Answer with one JSON object
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `adslam tables`
@@ -115,6 +233,9 @@ pub struct TablesArgs {
     /// The folder to write to; made if it does not exist
     #[arg(long, default_value = "results", value_name = "DIR")]
     pub out: PathBuf,
+    /// Answer with one JSON object
+    #[arg(long)]
+    pub json: bool,
 }
 
 impl Command {
@@ -128,7 +249,16 @@ impl Command {
             Self::Replay(args) => commands::replay(args),
             Self::Filter(args) => commands::filter(args, interrupt),
             Self::Tables(args) => commands::tables(args, interrupt),
-            Self::Check { files } => commands::check(files),
+            Self::Check(args) => commands::check(args),
+            Self::New(file) => commands::new(file),
+            Self::Schema { kind } => {
+                commands::schema(*kind);
+                Ok(())
+            }
+            Self::Completions { shell } => {
+                commands::completions(*shell);
+                Ok(())
+            }
         }
     }
 }

@@ -19,11 +19,16 @@ pub fn exit_code(result: Result<(), ExperimentError>) -> ExitCode {
     let Err(error) = result else {
         return ExitCode::SUCCESS;
     };
-    let code = match &error {
+    let code = code(&error);
+    tell(format_args!("{:?}", miette::Report::new(error)));
+    ExitCode::from(code)
+}
+
+/// The exit code of an error.
+pub(crate) fn code(error: &ExperimentError) -> u8 {
+    match error {
         ExperimentError::Interrupted => INTERRUPTED,
         error if error.is_bad_input() => BAD_INPUT,
         _ => FAILURE,
-    };
-    tell(format_args!("{:?}", miette::Report::new(error)));
-    ExitCode::from(code)
+    }
 }

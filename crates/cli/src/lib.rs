@@ -1,13 +1,19 @@
 //! The command `adslam`: arguments, progress, exit codes. What is computed is computed elsewhere.
 
+mod answer;
 mod args;
 mod commands;
 mod exit;
 mod interrupt;
+mod paths;
+mod planner;
 mod print;
 mod progress;
 
-pub use args::{Command, FilterArgs, ReplayArgs, RunArgs, TablesArgs};
-pub use commands::{check, filter, replay, run, tables};
+pub use args::{
+    Arguments, CheckArgs, Command, FilterArgs, NewArgs, NewFile, ReplayArgs, RunArgs, SchemaKind,
+    TablesArgs,
+};
+pub use commands::{check, completions, filter, new, replay, run, schema, schema_text, tables};
 pub use exit::{BAD_INPUT, FAILURE, INTERRUPTED, exit_code};
 pub use interrupt::stop_on_ctrl_c;

@@ -1,5 +1,6 @@
 //! Progress bars. They draw on the standard error stream, and only if that is a terminal.
 
+use std::fs::File;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -14,9 +15,20 @@ pub(crate) fn bar(total: usize, unit: &str) -> ProgressBar {
     bar
 }
 
-/// A counter of pieces of work whose total is not known.
-pub(crate) fn counter(unit: &str) -> ProgressBar {
-    let style = ProgressStyle::with_template(&format!("{{spinner}} {{pos}} {unit}, {{elapsed}}"))
-        .unwrap_or_else(|_| ProgressStyle::default_spinner());
-    ProgressBar::no_length().with_style(style)
+/// A bar over the bytes of a file, with the time left; of a pipe, whose size is not known, a count.
+/// Its message stands behind it.
+pub(crate) fn reading(file: &File) -> ProgressBar {
+    let size = file.metadata().map_or(0, |metadata| metadata.len());
+    let (bar, template) = if size > 0 {
+        let template = "{bar:30} {bytes}/{total_bytes}, {msg}, {elapsed} gone, {eta} left";
+        (ProgressBar::new(size), template)
+    } else {
+        (
+            ProgressBar::no_length(),
+            "{spinner} {bytes}, {msg}, {elapsed}",
+        )
+    };
+    let style =
+        ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_spinner());
+    bar.with_style(style)
 }

@@ -133,6 +133,16 @@ impl InputError {
             .map(|span| span.offset()..span.offset() + span.len())
     }
 
+    /// Line and column, from 1, of the place that is to blame, if it is a part of the file; columns
+    /// count characters.
+    pub fn line_and_column(&self) -> Option<(usize, usize)> {
+        let text = self.0.text.as_ref()?.inner();
+        let before = text.get(..self.span()?.start)?;
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        let line = before.matches('\n').count() + 1;
+        Some((line, before[line_start..].chars().count() + 1))
+    }
+
     /// The text that is to blame, as it stands in the file: what the caret points at.
     pub fn pointed_at(&self) -> Option<&str> {
         self.0.text.as_ref()?.inner().get(self.span()?)

@@ -61,7 +61,7 @@ pub enum ExperimentError {
         cause: io::Error,
     },
     /// Some of many runs failed; the others were finished and written.
-    #[error("{} of the runs failed:\n{}", failures.len(), failures.join("\n"))]
+    #[error("{} of the runs failed:\n{}", failures.len(), first_of(failures))]
     #[diagnostic(help("the other runs were finished and written"))]
     Runs {
         /// What happened to each.
@@ -86,5 +86,32 @@ impl ExperimentError {
             path: path.to_owned(),
             cause: cause.into(),
         }
+    }
+}
+
+/// The first failures, and how many more there are: thousands of runs may fail for one reason.
+fn first_of(failures: &[String]) -> String {
+    const SHOWN: usize = 10;
+    let shown = failures.len().min(SHOWN);
+    let mut text = failures[..shown].join("\n");
+    if failures.len() > shown {
+        text += &format!("\nand {} more", failures.len() - shown);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thousand_failures_are_told_in_a_few_lines() {
+        let said = |count: usize| {
+            let failures = (0..count).map(|run| format!("run {run}")).collect();
+            ExperimentError::Runs { failures }.to_string()
+        };
+        assert_eq!(said(2), "2 of the runs failed:\nrun 0\nrun 1");
+        assert!(said(10).ends_with("\nrun 9"));
+        assert!(said(1000).ends_with("\nrun 9\nand 990 more"));
     }
 }

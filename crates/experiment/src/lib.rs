@@ -9,6 +9,7 @@ pub mod metrics;
 pub mod output;
 pub mod run;
 pub mod scenario;
+pub mod schema;
 pub mod tables;
 pub mod world;
 

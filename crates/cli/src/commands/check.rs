@@ -3,35 +3,56 @@
 use std::path::PathBuf;
 
 use adslam_experiment::ExperimentError;
-use adslam_experiment::config::check_file;
+use adslam_experiment::config::{CheckedFile, check_file};
 use adslam_experiment::diagnostics::InputError;
+use serde_json::json;
 
-use crate::print::{say, tell, warn};
+use crate::CheckArgs;
+use crate::answer::{Answer, told_input};
+use crate::paths::shown;
+use crate::print::{tell, warn};
 
 /// Checks every file and says what each is, or what is wrong with it.
 ///
 /// # Errors
 /// That of a single file; of several, that some are not valid, after each has been explained.
-pub fn check(files: &[PathBuf]) -> Result<(), ExperimentError> {
+pub fn check(args: &CheckArgs) -> Result<(), ExperimentError> {
+    Answer::give(args.json, |answer| check_all(&args.files, answer))
+}
+
+fn check_all(files: &[PathBuf], answer: &mut Answer) -> Result<(), ExperimentError> {
+    let mut checked = Vec::new();
     let mut wrong = Vec::new();
     for path in files {
+        let file = shown(path);
         match check_file(path) {
-            Ok(checked) => {
-                warn(&checked.warnings);
-                say(format_args!("{}: valid {}", path.display(), checked.kind));
+            Ok(CheckedFile { kind, warnings }) => {
+                warn(&warnings);
+                answer.say(format_args!("{file}: valid {kind}"));
+                let kind = kind.short_name();
+                checked.push(
+                    json!({ "file": file, "valid": true, "kind": kind, "warnings": warnings }),
+                );
             }
-            Err(error) if files.len() == 1 => return Err(error.into()),
             Err(error) => {
-                tell(format_args!("{:?}", miette::Report::new(error)));
-                wrong.push(path);
+                checked.push(json!({ "file": file, "valid": false, "error": told_input(&error) }));
+                wrong.push((path, error));
             }
         }
     }
-    let Some(first) = wrong.first() else {
+    answer.set("checked", checked);
+    if files.len() == 1 {
+        return wrong.pop().map_or(Ok(()), |(_, error)| Err(error.into()));
+    }
+    let count = wrong.len();
+    let Some((first, _)) = wrong.first() else {
         return Ok(());
     };
-    let message = format!("{} of {} files are not valid", wrong.len(), files.len());
-    Err(InputError::about_file(first, message)
-        .with_help("each is explained above; the others can be used")
-        .into())
+    let message = format!("{count} of {} files are not valid", files.len());
+    let summary = InputError::about_file(first, message)
+        .with_help("each is explained above; the others can be used");
+    for (_, error) in wrong {
+        tell(format_args!("{:?}", miette::Report::new(error)));
+    }
+    Err(summary.into())
 }

@@ -10,7 +10,8 @@ use adslam_experiment::log::{TailPolicy, filter_log};
 use adslam_experiment::output::{AtomicFile, prepare_folder};
 use adslam_experiment::run::Interrupt;
 
-use crate::print::{say, tell};
+use crate::answer::Answer;
+use crate::paths::folder_of;
 use crate::{FilterArgs, progress};
 
 /// Runs the estimator over a log and writes its estimates.
@@ -18,6 +19,14 @@ use crate::{FilterArgs, progress};
 /// # Errors
 /// Bad input, a covariance that breaks down, a file that cannot be written, or an interruption.
 pub fn filter(args: &FilterArgs, interrupt: &Interrupt) -> Result<(), ExperimentError> {
+    Answer::give(args.json, |answer| filter_all(args, interrupt, answer))
+}
+
+fn filter_all(
+    args: &FilterArgs,
+    interrupt: &Interrupt,
+    answer: &mut Answer,
+) -> Result<(), ExperimentError> {
     let log = File::open(&args.log).map_err(|error| InputError::unreadable(&args.log, error))?;
     if same_file(&args.log, &args.out) {
         let message = format!("{} is the log itself", args.out.display());
@@ -25,35 +34,34 @@ pub fn filter(args: &FilterArgs, interrupt: &Interrupt) -> Result<(), Experiment
             .with_help("give another path with --out, so that the log is not lost")
             .into());
     }
-    if let Some(folder) = args
-        .out
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty())
-    {
-        prepare_folder(folder)?;
-    }
+    prepare_folder(folder_of(&args.out))?;
     let mut out = AtomicFile::create(&args.out)?;
     let policy = if args.keep_complete {
         TailPolicy::KeepComplete
     } else {
         TailPolicy::Refuse
     };
-    let counter = progress::counter("steps filtered");
-    let reader = BufReader::new(log);
+    let bar = progress::reading(&log);
+    let reader = BufReader::new(bar.wrap_read(log));
+    let mut steps = 0;
     let result = filter_log(reader, &args.log, &mut out, policy, interrupt, &mut || {
-        counter.inc(1);
+        steps += 1;
+        bar.set_message(format!("{steps} steps filtered"));
     });
-    counter.finish_and_clear();
+    bar.finish_and_clear();
     let summary = result?;
     out.commit()?;
     if let Some(reason) = &summary.stopped_by {
-        tell(format_args!(
-            "warning: {}; kept the {} steps before it",
-            reason.message(),
-            summary.steps
-        ));
+        let kept = summary.steps;
+        answer.warn(&[format!(
+            "{}; kept the {kept} steps before it",
+            reason.message()
+        )]);
     }
-    say(format_args!(
+    answer.set("steps", summary.steps);
+    answer.set("features", summary.features);
+    answer.set_files(&[&args.out]);
+    answer.say(format_args!(
         "filtered {} steps with {} features; wrote {}",
         summary.steps,
         summary.features,

@@ -1,13 +1,19 @@
 //! The subcommands.
 
 mod check;
+mod completions;
 mod filter;
+mod new;
 mod replay;
 mod run;
+mod schema;
 mod tables;
 
 pub use check::check;
+pub use completions::completions;
 pub use filter::filter;
+pub use new::new;
 pub use replay::replay;
 pub use run::run;
+pub use schema::{schema, schema_text};
 pub use tables::tables;

@@ -7,25 +7,26 @@ use adslam_experiment::output::prepare_folder;
 use adslam_experiment::run::RunHistory;
 
 use crate::ReplayArgs;
-use crate::print::say;
+use crate::answer::Answer;
+use crate::paths::folder_of;
 
 /// Makes one page of one or two runs.
 ///
 /// # Errors
 /// A folder without a run, or a file that cannot be written.
 pub fn replay(args: &ReplayArgs) -> Result<(), ExperimentError> {
+    Answer::give(args.json, |answer| make_page(args, answer))
+}
+
+fn make_page(args: &ReplayArgs, answer: &mut Answer) -> Result<(), ExperimentError> {
     let load = |folder: &PathBuf| RunHistory::load(folder);
     let histories: Vec<RunHistory> = args.runs.iter().map(load).collect::<Result<_, _>>()?;
     let histories: Vec<&RunHistory> = histories.iter().collect();
-    if let Some(folder) = args
-        .out
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty())
-    {
-        prepare_folder(folder)?;
-    }
+    prepare_folder(folder_of(&args.out))?;
     let bytes = adslam_replay::write_html(&histories, &args.out)?;
-    say(format_args!(
+    answer.set("bytes", bytes);
+    answer.set_files(&[&args.out]);
+    answer.say(format_args!(
         "wrote {} ({:.1} MB); open it in a browser, no network needed",
         args.out.display(),
         bytes as f64 / 1e6

@@ -6,20 +6,31 @@ use adslam_experiment::run::{Interrupt, Observer, RunRecorder, Setup, StepView, 
 use adslam_experiment::scenario::Scenario;
 use indicatif::ProgressBar;
 
-use crate::print::{say, warn};
+use crate::answer::Answer;
 use crate::{RunArgs, progress};
+
+const UNSEEN: &str = "the robot saw no feature in the whole run; is the object where it should be? \
+    adslam replay shows it";
 
 /// Runs one planner once and writes the run into a folder.
 ///
 /// # Errors
 /// Bad input, a failure of the run, or an interruption.
 pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), ExperimentError> {
+    Answer::give(args.json, |answer| run_once(args, interrupt, answer))
+}
+
+fn run_once(
+    args: &RunArgs,
+    interrupt: &Interrupt,
+    answer: &mut Answer,
+) -> Result<(), ExperimentError> {
     let mut scenario = Scenario::load(&args.scenario)?;
     if let Some(mesh) = &args.mesh {
         scenario = scenario.with_mesh(mesh);
     }
     let setup = Setup::new(&scenario)?;
-    warn(&setup.warnings);
+    answer.warn(&setup.warnings);
     prepare_folder(&args.out)?;
     let recorder = RunRecorder::create(&args.out, &setup, args.planner, args.seed)?;
     let mut observer = Shown {
@@ -29,7 +40,7 @@ pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), ExperimentError>
     let result = simulate(&setup, args.planner, args.seed, interrupt, &mut observer);
     observer.bar.finish_and_clear();
     let outcome = result?;
-    warn(&outcome.warnings);
+    answer.warn(&outcome.warnings);
     let page = args.out.join("replay.html");
     if args.html {
         adslam_replay::write_html(&[observer.recorder.history()], &page)?;
@@ -37,12 +48,19 @@ pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), ExperimentError>
     let mut files = observer.recorder.commit(&outcome.summary)?;
     files.extend(args.html.then_some(page));
     let summary = &outcome.summary;
+    if summary.observed == 0 {
+        answer.warn(&[UNSEEN.to_owned()]);
+    }
     let coverage = summary
         .steps_to_full_coverage
         .map_or("not all seen".to_owned(), |step| {
             format!("all seen at step {step}")
         });
-    say(format_args!(
+    answer.set("scenario", &setup.name);
+    answer.set("planner", args.planner.as_str());
+    answer.set("summary", summary);
+    answer.set_files(&files);
+    answer.say(format_args!(
         "{}, {}, seed {}: observed {} feature times, {coverage}, mean pose error {:.3}, mean \
          feature error {:.3} cm",
         setup.name,
@@ -56,7 +74,7 @@ pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), ExperimentError>
         .iter()
         .filter_map(|f| Some(f.file_name()?.to_string_lossy().into_owned()))
         .collect();
-    say(format_args!(
+    answer.say(format_args!(
         "wrote {} to {}",
         names.join(", "),
         args.out.display()

@@ -5,7 +5,8 @@ use adslam_experiment::output::{AtomicFile, prepare_folder};
 use adslam_experiment::run::Interrupt;
 use adslam_experiment::tables::{TablePlan, TablesOptions, markdown, terminal, write_json};
 
-use crate::print::{say, warn};
+use crate::answer::Answer;
+use crate::print::tell;
 use crate::{TablesArgs, progress};
 
 /// Runs a configuration, prints its tables, and writes tables.md and tables.json.
@@ -15,6 +16,14 @@ use crate::{TablesArgs, progress};
 /// # Errors
 /// Bad input, runs that failed, files that cannot be written, or an interruption.
 pub fn tables(args: &TablesArgs, interrupt: &Interrupt) -> Result<(), ExperimentError> {
+    Answer::give(args.json, |answer| run_all(args, interrupt, answer))
+}
+
+fn run_all(
+    args: &TablesArgs,
+    interrupt: &Interrupt,
+    answer: &mut Answer,
+) -> Result<(), ExperimentError> {
     let options = TablesOptions {
         runs: args.runs,
         only: args.only.clone(),
@@ -30,12 +39,21 @@ pub fn tables(args: &TablesArgs, interrupt: &Interrupt) -> Result<(), Experiment
     files.0.add(&markdown(&tables))?;
     write_json(&tables, &mut files.1)?;
     AtomicFile::commit_all(vec![files.0, files.1])?;
-    warn(&tables.warnings);
-    say(terminal(&tables));
-    say(format_args!(
+    answer.warn(&tables.warnings);
+    answer.set("title", &tables.title);
+    answer.set("complete", tables.is_complete());
+    answer.set("failures", &tables.failures);
+    answer.set_files(&[&md, &json]);
+    answer.say(terminal(&tables));
+    answer.say(format_args!(
         "wrote {} and {}",
         md.display(),
         json.display()
     ));
+    if tables.interrupted && !tables.failures.is_empty() {
+        // The interruption is what the command ends with, and tells nothing of these.
+        let failures = tables.failures.clone();
+        tell(ExperimentError::Runs { failures });
+    }
     tables.into_result()
 }

@@ -48,7 +48,7 @@ fn refused(place: &Place, words: &[&str]) {
     );
     let own = "run own.toml --planner local --out run";
     let said = place.refuses(own, &[words, &["help:"]].concat());
-    assert!(said.err.contains("[own.toml:10:8]"), "{}", said.err);
+    assert!(said.err.contains("[own.toml:11:8]"), "{}", said.err);
     assert!(!place.path("run").exists());
 }
 
@@ -64,7 +64,7 @@ fn a_mesh_takes_the_place_of_the_phantom() {
 fn missing() {
     let place = place();
     refused(&place, &["there is no file mesh.stl"]);
-    place.refuses("check own.toml", &["there is no file", "[own.toml:10:8]"]);
+    place.refuses("check own.toml", &["there is no file", "[own.toml:11:8]"]);
 }
 
 #[test]

@@ -79,7 +79,10 @@ fn what_is_not_toml() {
         };
         refused(("range_cm = 3.0", &written), at, &[]);
     }
-    let words = ["string values must be quoted", "write numbers like 3.0"];
+    let words = [
+        "neither a number nor a text in quotes",
+        "write numbers like 3.0",
+    ];
     refused(("range_cm = 3.0", "range_cm = three"), "range_cm", &words);
     let words = ["duplicate key", "keep one of the two"];
     let twice = "range_cm = 3.0\nrange_cm = 2.0";

@@ -7,8 +7,8 @@ use super::support::{FAILURE, Place, lines, log, polygon};
 
 /// A filter that believes in motion noise and measurement noise fifteen orders of magnitude apart: no
 /// covariance of doubles holds both.
-fn breaking() -> String {
-    let filter = "[filter]\nrotation_sigma_rad = 1e6\ntranslation_sigma_cm = 1e6\n\
+pub fn breaking() -> String {
+    let filter = "[filter]\nrotation_sigma_rad = 3.0\ntranslation_sigma_cm = 1e6\n\
         feature_measurement_sigma_cm = 1e-9\nstructure_measurement_sigma_cm = 1e-9\n\n[sensor]";
     polygon(&[("[sensor]", filter)])
 }

@@ -5,6 +5,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use super::failures::breaking;
 use super::support::{Place, polygon};
 use super::tables::config;
 
@@ -68,6 +69,27 @@ fn tables_keep_the_finished_runs() {
         2,
         "no litter"
     );
+}
+
+/// Whatever failed before: the user's wish is what the command ends with.
+#[test]
+fn an_interruption_is_one_though_runs_have_failed() {
+    let both = "title = \"t\"\nruns = 100000\n\
+        [[experiments]]\nlabel = \"breaking\"\nscenario = \"breaking.toml\"\nplanners = [\"local\"]\n\
+        [[experiments]]\nscenario = \"polygon.toml\"\nplanners = [\"predetermined\"]\n";
+    let place = Place::new(&[
+        ("polygon.toml", &polygon(&[])),
+        ("breaking.toml", &breaking()),
+        ("config.toml", both),
+    ]);
+    let child = start(&place, "tables config.toml --out tables", "tables");
+    sleep(Duration::from_millis(500));
+    let said = interrupt(child);
+    for word in ["of the runs failed", "[breaking]", "interrupted"] {
+        assert!(said.contains(word), "{said}");
+    }
+    assert!(said.lines().count() < 40, "{said}");
+    assert_eq!(place.json("tables/tables.json")["complete"], false);
 }
 
 #[test]

@@ -17,7 +17,10 @@ mod filter;
 mod help;
 #[cfg(unix)]
 mod interrupt;
+mod json;
+mod new;
 mod replay;
 mod run;
+mod schema;
 mod support;
 mod tables;

@@ -166,3 +166,33 @@ fn features_that_no_viewpoint_sees_are_named() {
         "{said:?}"
     );
 }
+
+#[test]
+fn a_world_in_which_nothing_is_seen_is_warned_of() {
+    let blind = polygon(&[("range_cm = 3.0", "range_cm = 0.2")]);
+    let place = Place::new(&[("blind.toml", &blind)]);
+    let said = place.succeeds("run blind.toml --planner predetermined --out run");
+    assert!(
+        said.err.contains("warning: the robot saw no feature"),
+        "{said:?}"
+    );
+    assert!(said.out.contains("observed 0 feature times"), "{said:?}");
+}
+
+/// Colours and bars are for terminals.
+#[test]
+fn what_is_read_by_a_program_has_no_escapes() {
+    let typo = polygon(&[("range_cm = 3.0", "rang_cm = 3.0")]);
+    let place = Place::new(&[("polygon.toml", &polygon(&[])), ("typo.toml", &typo)]);
+    for arguments in [
+        "run polygon.toml --planner local --out run",
+        "check typo.toml",
+        "check --help",
+        "fly",
+    ] {
+        let mut command = place.command(arguments);
+        let output = command.env_remove("NO_COLOR").output().unwrap();
+        let said = [output.stdout, output.stderr].concat();
+        assert!(!said.is_empty() && !said.contains(&0x1b), "{arguments}");
+    }
+}

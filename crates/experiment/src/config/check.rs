@@ -31,7 +31,7 @@ pub fn check_file(path: &Path) -> Result<CheckedFile, InputError> {
         );
         return Err(InputError::about_file(path, message).with_help(
             "a scenario has [object], [noise], [robot], …; a configuration [[experiments]]; a file \
-             of published results [tables.…]. docs/scenario.md lists all keys",
+             of published results [tables.…]. `adslam new` writes one with all keys",
         ));
     };
     let mut warnings = Vec::new();

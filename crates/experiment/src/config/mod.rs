@@ -9,6 +9,7 @@ mod tests;
 
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use check::{CheckedFile, check_file};
@@ -39,29 +40,46 @@ pub struct Config {
     pub experiments: Vec<ExperimentPlan>,
 }
 
-/// The file itself.
-#[derive(Debug, Deserialize)]
+/// What is run: scenarios, some of their keys overridden, planners, and how often. Unknown keys are
+/// errors.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct ConfigFile {
+#[schemars(rename = "Configuration")]
+pub(crate) struct ConfigFile {
+    /// Head of the tables.
     title: String,
+    /// Runs of each planner in each experiment.
     #[serde(default = "runs")]
     runs: Runs,
+    /// Seed of the first run; the others count up from it. Every planner meets the same noise at the
+    /// same seed.
     #[serde(default = "first_seed")]
     first_seed: Seed,
+    /// The file of published results; its path counts from this file's folder. Default: none.
+    #[schemars(extend("format" = "path"))]
     published: Option<PathBuf>,
+    /// What is run: an `[[experiments]]` for each.
     experiments: List<Experiment>,
 }
 
-/// An entry of `[[experiments]]`.
-#[derive(Debug, Deserialize)]
+/// A scenario, some of its keys overridden, and the planners that run in it.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Experiment {
+    /// What it is called in tables and file names; no two may share it. Default: the scenario's name.
     label: Option<Name>,
+    /// The scenario; its path counts from this file's folder.
+    #[schemars(extend("format" = "path"))]
     scenario: PathBuf,
+    /// The planners that run, each once.
     planners: List<PlannerName>,
+    /// The entry of the published results to print beside. Default: none.
     published: Option<Name>,
-    /// The overrides. Only their being a table is looked at here: `Document` reads them in place.
+    /// Overrides of the scenario's keys: each key is a path into the scenario, in quotes. Default:
+    /// none.
+    // Only their being a table is looked at here: `Document` reads them in place.
     #[serde(default, rename = "set")]
+    #[schemars(schema_with = "crate::schema::overrides")]
     _set: toml::Table,
 }
 

@@ -1,52 +1,54 @@
 //! The published tables, to print beside our own numbers.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
 
 use crate::diagnostics::{Document, FileKind, InputError};
 use crate::scenario::PlannerName;
 use crate::scenario::values::{Count, List, Name, NonNegative};
 
-/// A file of published results.
-#[derive(Debug, Clone, PartialEq, serde::Deserialize)]
+/// Published results, to print beside our own. Unknown keys are errors.
+#[derive(Debug, Clone, PartialEq, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Published {
     /// Where they were published.
     pub title: String,
-    /// The results of each scenario.
+    /// The results in each scenario, `[tables.NAME]`; an experiment names one.
     pub tables: BTreeMap<Name, PublishedScenario>,
 }
 
-/// What was published about one scenario: `[tables.NAME]`.
-#[derive(Debug, Clone, PartialEq, serde::Deserialize)]
+/// What was published about one scenario.
+#[derive(Debug, Clone, PartialEq, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PublishedScenario {
-    /// Number of the table with the coverage, such as "I".
+    /// Number of the table with the coverage, such as `"I"`.
     pub coverage_table: Name,
-    /// Number of the table with the errors, such as "II".
+    /// Number of the table with the errors, such as `"II"`.
     pub error_table: Name,
-    /// The results of each planner.
+    /// The results of each planner, `[tables.NAME.planners.PLANNER]`.
     pub planners: BTreeMap<PlannerName, PublishedPlanner>,
 }
 
-/// One planner's column: `[tables.NAME.planners.PLANNER]`.
-#[derive(Debug, Clone, PartialEq, serde::Deserialize)]
+/// The results of one planner.
+#[derive(Debug, Clone, PartialEq, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PublishedPlanner {
     /// Observed feature times of each run.
     pub observed: List<Count<0, 1_000_000_000>>,
-    /// Step at which all features had been seen, of each run.
+    /// Step by which every feature had been seen, of each run; `"-"`: never.
     pub steps: List<StepsToCover>,
-    /// Maximum of the pose error, eq. (11).
+    /// Largest pose error, eq. (11), which mixes radians and cm.
     pub pose_error_max: NonNegative,
-    /// Mean of the pose error.
+    /// Mean pose error, eq. (11).
     pub pose_error_mean: NonNegative,
-    /// Maximum of the feature error at the last step, eq. (12).
+    /// Largest feature error at the last step, eq. (12) (cm).
     pub feature_error_max_cm: NonNegative,
-    /// Mean of the feature error at the last step.
+    /// Mean feature error at the last step, eq. (12) (cm).
     pub feature_error_mean_cm: NonNegative,
 }
 
@@ -82,6 +84,20 @@ impl<'de> Deserialize<'de> for StepsToCover {
         }
 
         deserializer.deserialize_any(StepOrDash)
+    }
+}
+
+impl JsonSchema for StepsToCover {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "StepsToCover".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [{ "type": "integer", "minimum": 1 }, { "const": "-" }] })
     }
 }
 

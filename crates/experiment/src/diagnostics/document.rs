@@ -5,11 +5,13 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::explain::{explain, explain_syntax};
+use super::explain::{Surroundings, explain, explain_syntax};
 use super::{InputError, key_path, overrides};
+use crate::schema::Advice;
 
 /// Files above this size are not ours: the largest that a person writes has a few kilobytes.
 const LARGEST_FILE: u64 = 16 << 20;
@@ -60,7 +62,7 @@ impl Document {
         if tables.is_empty() {
             let message = format!("{} has no keys", path.display());
             return Err(InputError::about_file(path, message).with_help(
-                "docs/scenario.md says what belongs into scenarios and configurations",
+                "`adslam new scenario` and `adslam new config` write files to start from",
             ));
         }
         drop(tables);
@@ -144,14 +146,19 @@ impl Document {
     ///
     /// # Errors
     /// When a key is unknown or missing, or a value is not what `T` wants there.
-    pub(crate) fn deserialize<T: DeserializeOwned>(&self) -> Result<T, InputError> {
+    pub(crate) fn deserialize<T: DeserializeOwned + JsonSchema>(&self) -> Result<T, InputError> {
         let tables = self.tables()?;
         let root = toml::Spanned::new(0..0, tables.clone());
         T::deserialize(Deserializer::from(root)).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
-            let keys = key_path::keys_of_table_at(&tables, &span);
+            let (path, keys) = key_path::at_span(&tables, &span);
+            let place = Surroundings {
+                path: &path,
+                keys,
+                advice: &Advice::of::<T>(),
+            };
             self.error_in(span, "")
-                .explained(explain(&error, &keys))
+                .explained(explain(&error, &place))
                 .with_help_if_none("docs/scenario.md says what belongs here")
         })
     }

@@ -1,6 +1,7 @@
 //! The words of serde and toml, put so that the author of a file knows what to write.
 
 use super::InputError;
+use crate::schema::Advice;
 
 /// An error message in three parts.
 #[derive(Debug, PartialEq, Eq)]
@@ -10,11 +11,22 @@ pub(super) struct Explanation {
     pub(super) help: Option<String>,
 }
 
+/// What is around the place that an error points at.
+#[derive(Debug)]
+pub(super) struct Surroundings<'a> {
+    /// Path of the value that is to blame, or of the table whose key is.
+    pub(super) path: &'a str,
+    /// The keys that are there, if it is a table.
+    pub(super) keys: Vec<&'a str>,
+    /// What belongs into such a file.
+    pub(super) advice: &'a Advice,
+}
+
 /// Puts an error of the toml parser or of a `Deserialize` in better words.
 ///
-/// `choices` are the keys of the table that the error points at. Errors of our own number types read "what is wrong; what to write"; the two parts become message
+/// Errors of our own number types read "what is wrong; what to write"; the two parts become message
 /// and help.
-pub(super) fn explain(error: &toml::de::Error, choices: &[&str]) -> Explanation {
+pub(super) fn explain(error: &toml::de::Error, place: &Surroundings<'_>) -> Explanation {
     let text = error.message();
     let quoted: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
     let explanation = |message: String, label: &str, help: String| Explanation {
@@ -29,7 +41,7 @@ pub(super) fn explain(error: &toml::de::Error, choices: &[&str]) -> Explanation 
         return explanation(
             message,
             "no such key here",
-            suggestion(unknown, known, "keys"),
+            place.suggestion(unknown, known, "keys"),
         );
     }
     if text.starts_with("unknown variant")
@@ -39,7 +51,7 @@ pub(super) fn explain(error: &toml::de::Error, choices: &[&str]) -> Explanation 
         return explanation(
             message,
             "no such choice",
-            suggestion(unknown, known, "choices"),
+            place.suggestion(unknown, known, "choices"),
         );
     }
     if text.starts_with("missing field")
@@ -47,26 +59,20 @@ pub(super) fn explain(error: &toml::de::Error, choices: &[&str]) -> Explanation 
     {
         let message = format!("the key `{missing}` is missing");
         let at_root = error.span().is_none_or(|span| span == (0..0));
-        let (label, place) = if at_root {
-            (
-                "in the file's own keys",
-                "above the first [table], or as a [table] of its own",
-            )
+        let label = if at_root {
+            "in the file's own keys"
         } else {
-            ("in this part", "here")
+            "in this part"
         };
-        let help = format!("add `{missing} = …` {place}; docs/scenario.md says what it means");
-        return explanation(message, label, help);
+        return explanation(message, label, place.missing(missing));
     }
     if text.starts_with("wanted exactly 1 element") || text == "wanted string or table" {
         let message = "exactly one choice must be made here".to_owned();
-        let help = match choices {
-            [] => "write one choice as a table, or \"none\" where that is one of them; \
-                   docs/scenario.md lists them"
-                .to_owned(),
-            chosen => format!("keep one of {}", in_backticks(chosen)),
-        };
-        return explanation(message, "in this part", help);
+        return explanation(message, "in this part", place.choice());
+    }
+    if text.ends_with("expected newtype variant") {
+        let message = "this choice is a table with keys of its own".to_owned();
+        return explanation(message, "a word alone", place.choice());
     }
     if let Some((wrong, expected)) = text
         .strip_prefix("invalid type: ")
@@ -98,8 +104,9 @@ pub(super) fn explain_syntax(error: &toml::de::Error) -> Explanation {
         || text.starts_with("invalid boolean")
     {
         (
-            "string values must be quoted",
-            "write numbers like 3.0, lists like [1.0, 2.0] and texts like \"text\"",
+            "this is neither a number nor a text in quotes",
+            "write numbers like 3.0 without a unit, lists like [1.0, 2.0] with commas, and texts \
+             like \"text\"",
         )
     } else if text.starts_with("duplicate key") {
         (text, "keep one of the two")
@@ -126,13 +133,67 @@ impl InputError {
     }
 }
 
+impl Surroundings<'_> {
+    /// Where the unknown word belongs, if it is a key elsewhere; else "did you mean `x`?", where one
+    /// of the known words is close; and the list of those.
+    fn suggestion(&self, unknown: &str, known: &[&str], kind: &str) -> String {
+        let elsewhere = self.advice.tables_with(unknown, self.path);
+        if elsewhere.is_empty() {
+            return suggestion(unknown, known, kind);
+        }
+        let places: Vec<String> = elsewhere
+            .iter()
+            .map(|table| match *table {
+                "" => "the file's own keys, above the first [table]".to_owned(),
+                table => format!("[{table}]"),
+            })
+            .collect();
+        let (places, list) = (places.join(" or "), in_backticks(known));
+        format!("`{unknown}` belongs into {places}; the {kind} here: {list}")
+    }
+
+    /// What to add where a key is missing, and what it means.
+    fn missing(&self, key: &str) -> String {
+        let dot = if self.path.is_empty() { "" } else { "." };
+        let path = format!("{}{dot}{key}", self.path);
+        let tables = self.tables_at(&path);
+        let help = if !tables.is_empty() {
+            format!("add one of {}", tables.join(", "))
+        } else if self.advice.is_table(&path) {
+            format!("add a table [{path}]")
+        } else if self.path.is_empty() {
+            format!("add `{key} = …` above the first [table]")
+        } else {
+            format!("add `{key} = …` here")
+        };
+        match self.advice.meaning(&path) {
+            Some(meaning) => format!("{help}. {meaning}"),
+            None => help,
+        }
+    }
+
+    /// Which choice can be made.
+    fn choice(&self) -> String {
+        let choices = self.advice.choices_at(self.path);
+        let mut chosen = self.keys.clone();
+        chosen.retain(|key| choices.contains(key));
+        if chosen.len() > 1 {
+            format!("keep one of {}", in_backticks(&chosen))
+        } else {
+            format!("write one of {}", self.tables_at(self.path).join(", "))
+        }
+    }
+
+    /// The heads of the tables that may be chosen at a path.
+    fn tables_at(&self, path: &str) -> Vec<String> {
+        let choices = self.advice.choices_at(path).into_iter();
+        choices.map(|choice| format!("[{path}.{choice}]")).collect()
+    }
+}
+
 /// "did you mean `x`?", where one of the known words is close, and the list of them.
 fn suggestion(unknown: &str, known: &[&str], kind: &str) -> String {
-    let list = known
-        .iter()
-        .map(|word| format!("`{word}`"))
-        .collect::<Vec<_>>()
-        .join(", ");
+    let list = in_backticks(known);
     match nearest(unknown, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`? The {kind} here: {list}"),
         None if known.is_empty() => "nothing is expected here; take it out".to_owned(),

@@ -79,20 +79,56 @@ pub(super) fn find<'a, 'i>(root: &'a DeTable<'i>, path: &[Step]) -> Option<Place
     Some(place)
 }
 
-/// The keys of the table, at any depth outside arrays, that stands at `span`.
-pub(super) fn keys_of_table_at<'a>(table: &'a DeTable<'_>, span: &Range<usize>) -> Vec<&'a str> {
-    for (_, value) in table {
-        if let DeValue::Table(inner) = value.get_ref() {
-            if value.span() == *span {
-                return inner.keys().map(|key| &**key.get_ref()).collect();
-            }
-            let found = keys_of_table_at(inner, span);
-            if !found.is_empty() {
-                return found;
+/// The path of the value that stands at `span`, or of the table that has a key there, and the keys of
+/// that table; the root where there is none.
+pub(super) fn at_span<'a>(root: &'a DeTable<'_>, span: &Range<usize>) -> (String, Vec<&'a str>) {
+    let mut values = Vec::new();
+    values_below(root, "", &mut values);
+    let table = |value: &'a Spanned<DeValue<'_>>| value.get_ref().as_table();
+    let has_key = |table: &DeTable<'_>| table.keys().any(|key| key.span() == *span);
+    // A table whose head is nowhere written stands where its key does, so values go first.
+    let (path, table) = values
+        .iter()
+        .find(|(_, value)| value.span() == *span)
+        .or_else(|| {
+            values
+                .iter()
+                .find(|(_, value)| table(value).is_some_and(has_key))
+        })
+        .map_or((String::new(), Some(root)), |(path, value)| {
+            (path.clone(), table(value))
+        });
+    let keys = table.into_iter().flat_map(DeTable::keys);
+    (path, keys.map(|key| &**key.get_ref()).collect())
+}
+
+/// Every value below `table`, which is at `path`.
+fn values_below<'a, 'i>(
+    table: &'a DeTable<'i>,
+    path: &str,
+    values: &mut Vec<(String, &'a Spanned<DeValue<'i>>)>,
+) {
+    let dot = if path.is_empty() { "" } else { "." };
+    for (key, value) in table {
+        note_value(value, format!("{path}{dot}{}", key.get_ref()), values);
+    }
+}
+
+fn note_value<'a, 'i>(
+    value: &'a Spanned<DeValue<'i>>,
+    path: String,
+    values: &mut Vec<(String, &'a Spanned<DeValue<'i>>)>,
+) {
+    match value.get_ref() {
+        DeValue::Table(table) => values_below(table, &path, values),
+        DeValue::Array(array) => {
+            for (index, element) in array.iter().enumerate() {
+                note_value(element, format!("{path}[{index}]"), values);
             }
         }
+        _ => {}
     }
-    Vec::new()
+    values.push((path, value));
 }
 
 fn child<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> Option<Place<'a, 'i>> {

@@ -26,6 +26,16 @@ impl fmt::Display for FileKind {
 }
 
 impl FileKind {
+    /// The kind in a word, for the command line and for the names of schemas.
+    #[must_use]
+    pub const fn short_name(self) -> &'static str {
+        match self {
+            Self::Scenario => "scenario",
+            Self::Configuration => "config",
+            Self::Published => "published",
+        }
+    }
+
     /// Keys of the root that only this kind has.
     const fn telling_keys(self) -> &'static [&'static str] {
         match self {

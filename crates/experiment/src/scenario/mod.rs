@@ -19,6 +19,7 @@ use std::path::{Path, PathBuf};
 
 use adslam_deformation::ObjectMotion;
 use nalgebra::Point3;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use motion::{
@@ -36,39 +37,40 @@ pub use viewpoints::{Fixed, Grid, Viewpoints};
 
 use crate::diagnostics::{Document, FileKind, InputError};
 
-/// A scenario file, read and checked.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// What the world is: the object, its motion, the noise, the sensor, the robot, and the planners'
+/// parameters in it. Unknown keys are errors.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
-    /// What it is called in tables and file names.
+    /// What it is called in tables and file names: up to 64 letters, digits, `-`, `_` and `.`.
     pub name: Name,
-    /// What it is, for readers; default nothing.
+    /// What it is, for readers. Default: none.
     #[serde(default)]
     pub description: String,
-    /// Steps of a run, the first being the start.
+    /// Steps of a run, the start included.
     pub steps: Steps,
-    /// The object that is mapped.
+    /// The object that is mapped: exactly one of three tables.
     pub object: Object,
-    /// How a mesh given with `--mesh` is placed.
+    /// Where a mesh given with `--mesh` belongs. Default: none.
     pub mesh_placement: Option<MeshPlacement>,
-    /// How the object moves.
+    /// How the object moves. Default: at rest.
     #[serde(default)]
     pub motion: Motion,
-    /// What the filter and the planners believe of that; default the truth. See
-    /// [`Scenario::believed_motion`].
+    /// What filter and planners believe of that; an empty table believes the object to be at rest.
+    /// Default: `motion`.
     pub known_motion: Option<Motion>,
     /// The noise of the world.
     pub noise: Noise,
-    /// Where the filter assumes something else. See [`Scenario::filter_noise`].
+    /// Where the filter assumes another noise. Default: `noise`.
     #[serde(default)]
     pub filter: Filter,
     /// What the robot sees.
     pub sensor: Sensor,
-    /// The robot and its actions.
+    /// The robot, its start and its actions.
     pub robot: Robot,
-    /// The places that the global planner's path may lead through.
+    /// Where the global planner's path may lead: exactly one of two tables.
     pub viewpoints: Viewpoints,
-    /// The planners' parameters.
+    /// The parameters of each planner.
     pub planners: Planners,
     /// Whether the object is a mesh that was given beside the file, with [`Scenario::with_mesh`].
     #[serde(skip)]

@@ -7,64 +7,66 @@ use adslam_deformation::{
     SinusoidalTranslation,
 };
 use nalgebra::Point3;
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::values::{FeatureNumber, Finite, List, Positive, Vec3};
 
-/// The motion of the object: t, d, r_t and r_d of eq. (2). What is not given is not there.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+/// How the object moves: t, d, r_t and r_d of eq. (2). What is not given is not there.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Motion {
-    /// What shifts all features alike; default none.
+    /// t, which all features share. Default: `"none"`.
     pub translation: Translation,
-    /// What displaces each feature from its rest position; default none.
+    /// The displacement of each feature from its rest position, whose change is d. Default:
+    /// `"none"`.
     pub deformation: Deformation,
-    /// r_t, which turns the translation; default the identity.
+    /// r_t, which turns the translation. Default: identity.
     pub translation_rotation: Option<Rotation>,
-    /// r_d, which turns the displacement; default the identity.
+    /// r_d, which turns the displacement along with it. Default: identity.
     pub deformation_rotation: Option<Rotation>,
 }
 
-/// `translation` of a motion.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+/// What shifts all features alike.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Translation {
-    /// No translation: `"none"`, the default.
+    /// No translation.
     #[default]
     None,
     /// Forth from every odd step, back from every even one.
     BackAndForth(BackAndForthStep),
-    /// amplitude · sin(2π (n − 1) / period + phase).
+    /// T(n) = amplitude · sin(2π (n − 1) / period + phase); t is its change.
     Sinusoid(Swing),
 }
 
-/// `translation.back_and_forth`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// Forth from every odd step, back from every even one.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BackAndForthStep {
-    /// The translation from every odd step to the next (cm).
+    /// The way forth; the paper has `[0.1, 0, 0]` (world frame, cm).
     pub step_cm: Vec3,
 }
 
-/// `translation.sinusoid`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// T(n) = amplitude · sin(2π (n − 1) / period + phase); t = T(n + 1) − T(n).
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Swing {
-    /// Farthest point of the swing (cm).
+    /// Farthest point of the swing (world frame, cm).
     pub amplitude_cm: Vec3,
-    /// Steps of a whole swing; need not be a whole number.
+    /// Steps of a whole swing; not always a whole number.
     pub period_steps: Positive,
-    /// Phase at step 1; default 0.
+    /// Phase at step 1 (degrees).
     #[serde(default = "zero")]
     pub phase_deg: Finite,
 }
 
-/// `deformation` of a motion.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+/// What displaces each feature from its rest position.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Deformation {
-    /// No deformation: `"none"`, the default.
+    /// No deformation.
     #[default]
     None,
     /// Expansion and shrinkage around an anchor by listed amounts.
@@ -73,60 +75,61 @@ pub enum Deformation {
     AnchoredSinusoid(AnchoredSinusoid),
 }
 
-/// `deformation.anchored`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// Every feature is displaced away from an anchor by the same amount, from a list.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Anchored {
-    /// The feature that stays, by its number; default 0.
+    /// The number of the feature that stays.
     #[serde(default = "first")]
     pub anchor: FeatureNumber,
-    /// Which way the others move; default horizontal.
+    /// Which way the others move.
     #[serde(default)]
     pub direction: Direction,
-    /// How far each is from its rest position, step by step from step 1, again and again (cm).
+    /// How far each is from its rest position, step by step from step 1, again and again (cm). The
+    /// paper has 0, 0.2, 0.4, 0.6, 0.4, 0.2, the public code 0.2, 0.4, 0.6, 0.6, 0.4, 0.2.
     pub amounts_cm: List<Finite>,
 }
 
-/// `deformation.anchored_sinusoid`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// Every feature is displaced away from an anchor by the same amount, from a sinusoid.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AnchoredSinusoid {
-    /// The feature that stays, by its number; default 0.
+    /// The number of the feature that stays.
     #[serde(default = "first")]
     pub anchor: FeatureNumber,
-    /// Which way the others move; default horizontal.
+    /// Which way the others move.
     #[serde(default)]
     pub direction: Direction,
-    /// How far each gets from its rest position (cm).
+    /// Farthest displacement; the features go both ways (cm).
     pub amplitude_cm: Finite,
-    /// Steps of a whole breath; need not be a whole number.
+    /// Steps of a whole breath; not always a whole number.
     pub period_steps: Positive,
-    /// Phase at step 1; default 0.
+    /// Phase at step 1 (degrees).
     #[serde(default = "zero")]
     pub phase_deg: Finite,
 }
 
 /// Which way an anchored deformation moves a feature.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Direction {
-    /// Away from the vertical line through the anchor, along z on that line.
+    /// Away from the vertical line through the anchor, and along z on that line.
     #[default]
     Horizontal,
     /// Straight away from the anchor.
     Radial,
 }
 
-/// `translation_rotation` or `deformation_rotation`: exp(axis · (angle + rate · (n − 1))).
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// A rotation about a fixed axis: exp(axis · (angle + rate · (n − 1))) at step n.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rotation {
-    /// The axis, of any length but zero (world frame).
+    /// The axis, a vector other than zero whose length is of no matter (world frame).
     pub axis: Vec3,
-    /// The angle at step 1; default 0.
+    /// The angle at step 1 (degrees).
     #[serde(default = "zero")]
     pub angle_deg: Finite,
-    /// What each step adds to it; default 0.
+    /// What each step adds to it (degrees).
     #[serde(default = "zero")]
     pub rate_deg_per_step: Finite,
 }

@@ -1,74 +1,77 @@
 //! `[noise]` and `[filter]`: the noise of the world, and the noise that the filter assumes.
 
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-use super::values::{NonNegative, Positive, Truncation};
+use super::values::{AngleSigma, NonNegative, Positive, Truncation};
 
-/// `[noise]`: the true noise, Gaussian, independent in every component.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// The noise of the world: Gaussian, independent in each component. 0 is no noise.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Noise {
-    /// w^Ω of eq. (2): each Euler angle, each step (rad).
-    pub rotation_sigma_rad: NonNegative,
-    /// w^v of eq. (2): each coordinate of the robot, each step (cm).
+    /// Of each Euler angle of a motion of the robot, each step: w^Ω of eq. (2) (rad).
+    pub rotation_sigma_rad: AngleSigma,
+    /// Of each coordinate of a motion of the robot, each step: w^v of eq. (2) (cm).
     pub translation_sigma_cm: NonNegative,
-    /// σ_t: the noise of each feature's translation, each step (cm).
+    /// σ_t, of the object's translation, for each feature; adds up from step to step (cm).
     pub feature_translation_sigma_cm: NonNegative,
-    /// σ_d: the noise of each feature's deformation, each step (cm).
+    /// σ_d, of the deformation, for each feature (cm).
     pub feature_deformation_sigma_cm: NonNegative,
-    /// ε^f of eq. (10): each coordinate of a measured feature (cm).
+    /// Of each coordinate of a measured feature: ε^f of eq. (10) (cm).
     pub feature_measurement_sigma_cm: NonNegative,
-    /// ε^c of eq. (4): each coordinate of a measured difference of two features (cm).
+    /// Of each coordinate of a measured difference between two features: ε^c of eq. (4) (cm).
     pub structure_measurement_sigma_cm: NonNegative,
-    /// Whether the deformation's noise accumulates; default fresh.
+    /// What becomes of σ_d from step to step.
     #[serde(default)]
     pub deformation_noise: DeformationNoise,
-    /// Cuts every noise off at this multiple of its sigma; default not at all.
+    /// Cuts off every noise at this multiple of its sigma; the public code has 2. Default: never.
     pub truncate_at_sigmas: Option<Truncation>,
 }
 
 /// What becomes of the noise of a deformation.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DeformationNoise {
-    /// Drawn anew around the deformed shape at every step, as in the public code. The default.
+    /// Drawn anew around the deformed shape at each step, as in the public code.
     #[default]
     Fresh,
-    /// Added up from step to step like the translation's: eq. (2), read literally.
+    /// Adds up like the translation's, which is eq. (2) read literally.
     Accumulating,
 }
 
-/// `[filter]`: where the filter's assumptions differ from the world.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+/// Where the filter assumes another noise than the world has.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Filter {
-    /// Default: the one of `[noise]`, as for the five below.
-    pub rotation_sigma_rad: Option<NonNegative>,
-    /// See [`Noise::translation_sigma_cm`].
+    /// Of each Euler angle of a motion of the robot, each step (rad). Default: that of `noise`.
+    pub rotation_sigma_rad: Option<AngleSigma>,
+    /// Of each coordinate of a motion of the robot, each step (cm). Default: that of `noise`.
     pub translation_sigma_cm: Option<NonNegative>,
-    /// See [`Noise::feature_translation_sigma_cm`].
+    /// σ_t, of the object's translation, for each feature (cm). Default: that of `noise`.
     pub feature_translation_sigma_cm: Option<NonNegative>,
-    /// See [`Noise::feature_deformation_sigma_cm`].
+    /// σ_d, of the deformation, for each feature (cm). Default: that of `noise`.
     pub feature_deformation_sigma_cm: Option<NonNegative>,
-    /// See [`Noise::feature_measurement_sigma_cm`]; above 0.
+    /// Of each coordinate of a measured feature (cm). Default: that of `noise`, which has to be above
+    /// 0 then.
     pub feature_measurement_sigma_cm: Option<Positive>,
-    /// See [`Noise::structure_measurement_sigma_cm`]; above 0.
+    /// Of each coordinate of a measured difference between two features (cm). Default: that of
+    /// `noise`, which has to be above 0 then.
     pub structure_measurement_sigma_cm: Option<Positive>,
-    /// Of each coordinate of a feature at the start; default the feature measurement's (cm). The
-    /// first estimate is drawn with it.
+    /// Of each coordinate of each feature at the start; the first estimate is drawn with it (cm).
+    /// Default: the filter's feature measurement's.
     pub initial_feature_sigma_cm: Option<NonNegative>,
-    /// Which structure measurements are made and used; default all pairs.
+    /// Between which features differences are measured and used.
     pub structure: Structure,
 }
 
 /// Which pairs of features structure measurements connect.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Structure {
-    /// Every pair, at every step. The default.
+    /// Every pair, at every step.
     #[default]
     AllPairs,
-    /// No pair: there are no structure measurements.
+    /// No pair.
     None,
 }
 
@@ -109,7 +112,7 @@ impl Filter {
             noise.feature_measurement_sigma_cm,
         );
         FilterNoise {
-            rotation_sigma_rad: or(self.rotation_sigma_rad, noise.rotation_sigma_rad),
+            rotation_sigma_rad: *self.rotation_sigma_rad.unwrap_or(noise.rotation_sigma_rad),
             translation_sigma_cm: or(self.translation_sigma_cm, noise.translation_sigma_cm),
             feature_translation_sigma_cm: or(
                 self.feature_translation_sigma_cm,

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use adslam_surface::DEFAULT_PHANTOM_SPACING_CM;
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::values::{FeatureCount, FeatureNumber, List, Seed, Spacing, Triple, Vec3};
 
@@ -13,7 +14,7 @@ const FEATURES: FeatureCount = FeatureCount::default_of(50);
 const FEATURE_SEED: Seed = Seed::default_of(1);
 
 /// The object at rest, in world coordinates.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Object {
     /// Features at given places.
@@ -35,69 +36,71 @@ impl Object {
     }
 }
 
-/// `[object.points]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// Features at given places.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Points {
-    /// Where each feature rests (world frame, cm).
+    /// Where each feature rests (world frame, cm): 4 to 2000, all different, not all in one plane.
+    #[schemars(length(min = 4, max = 2000))]
     pub positions_cm: List<Vec3>,
-    /// The triangles between the features, by their numbers, counterclockwise seen from outside;
-    /// default: their convex hull. Needed where the surface is not convex, and where several
-    /// features of the hull lie in one plane, whose diagonals are a choice.
+    /// The triangles between the features, by their numbers, counterclockwise seen from outside. Give
+    /// them where the surface is not convex, or where more than three features of the hull lie in one
+    /// plane, so that its diagonals are a choice. Default: convex hull.
     pub faces: Option<List<Triple<FeatureNumber>>>,
 }
 
-/// `[object.mesh]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// A mesh file, from whose vertices features are picked.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
-    /// The STL file. In a file it counts from the scenario's folder; here it is ready to open.
+    /// An STL file of a closed surface; its path counts from the scenario's folder.
+    // Once the scenario is read, the folder is part of it.
+    #[schemars(extend("format" = "path"))]
     pub file: PathBuf,
-    /// The unit of its coordinates; default mm.
+    /// Unit of the file's coordinates.
     #[serde(default)]
     pub unit: LengthUnit,
-    /// Added to every vertex after scaling (world frame, cm); default none.
+    /// Added to every vertex, after scaling (world frame, cm).
     #[serde(default)]
     pub offset_cm: Vec3,
-    /// Features to pick from its vertices; default 50.
+    /// Features to pick from the vertices on the convex hull.
     #[serde(default = "features")]
     pub features: FeatureCount,
-    /// Seed of the picking; default 1.
+    /// Seed of that picking.
     #[serde(default = "feature_seed")]
     pub feature_seed: Seed,
 }
 
-/// `[object.phantom]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// The heart that the code generates, from whose vertices features are picked.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Phantom {
-    /// Features to pick from its vertices; default 50.
+    /// Features to pick from the vertices on the convex hull.
     #[serde(default = "features")]
     pub features: FeatureCount,
-    /// Seed of the picking; default 1.
+    /// Seed of that picking.
     #[serde(default = "feature_seed")]
     pub feature_seed: Seed,
-    /// Distance between neighbouring vertices, about; default
-    /// [`DEFAULT_PHANTOM_SPACING_CM`].
+    /// Distance between neighbouring vertices, about (cm).
     #[serde(default = "spacing")]
     pub spacing_cm: Spacing,
 }
 
-/// `[mesh_placement]`: how a mesh given with `--mesh` is brought into this world.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+/// How a mesh given with `--mesh` is brought into this world.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MeshPlacement {
-    /// The unit of its coordinates; default mm.
+    /// Unit of the file's coordinates.
     pub unit: LengthUnit,
-    /// Added to every vertex after scaling (world frame, cm); default none.
+    /// Added to every vertex, after scaling (world frame, cm).
     pub offset_cm: Vec3,
 }
 
 /// The unit of a mesh file's coordinates.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LengthUnit {
-    /// Millimetres, the default: what medical images use.
+    /// Millimetres, which medical images use.
     #[default]
     Mm,
     /// Centimetres.

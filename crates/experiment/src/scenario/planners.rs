@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 use thiserror::Error;
 
@@ -10,69 +11,77 @@ use super::values::{Fraction, Many, NonNegative, Positive, Vec3};
 use crate::diagnostics::nearest;
 
 /// Parameters of every planner, so that all can be compared in this world.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Planners {
-    /// The predetermined path.
+    /// The predetermined path: the same control at every step.
     pub predetermined: Predetermined,
-    /// The local planner, section III-B; has defaults.
+    /// The local planner, section III-B. Default: as the filter.
     #[serde(default)]
     pub local: Local,
-    /// The global planner, section III-C.
+    /// The global planner, section III-C, and the path of the combined one.
     pub global: Global,
     /// The combined planner, section III-D.
     pub combined: Combined,
 }
 
-/// `[planners.predetermined]`: the same control at every step.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// The predetermined path: the same control at every step.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Predetermined {
-    /// Ω: change of roll, pitch and yaw.
+    /// Ω: the change of roll, pitch and yaw (degrees).
     pub rotation_deg: Vec3,
-    /// v: translation in the frame of the body before it turns (cm).
+    /// v: the translation, in the frame of the body before it turns (cm).
     pub translation_cm: Vec3,
 }
 
-/// `[planners.local]`
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+/// The local planner: the action after which the trace of the covariance is smallest.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Local {
-    /// The feature measurement's sigma assumed in planning; default the filter's.
+    /// The feature measurement's sigma, assumed in planning only (cm). Default: the filter's.
     pub feature_measurement_sigma_cm: Option<Positive>,
-    /// Time for a decision; default as long as it takes. When it is up the best action scored so far
-    /// is taken, so that runs depend on the machine.
+    /// Time for a decision (ms). When it is up the best action scored so far is taken; the run then
+    /// depends on the machine, and `scored_actions` in steps.csv says how many were scored. Default:
+    /// none.
     pub deadline_ms: Option<Positive>,
 }
 
-/// `[planners.global]`: how the path through viewpoints is found and followed; the combined
-/// planner does it in the same way.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// How the path through viewpoints is found and followed, by the global planner and the combined
+/// one.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Global {
-    /// K of Algorithm 2: sets of viewpoints drawn, of which the best is kept; default 50. Without
-    /// meaning for fixed viewpoints.
+    /// K of Algorithm 2: sets of viewpoints drawn, the best of which is kept. Without meaning if the
+    /// viewpoints are fixed.
     #[serde(default = "samples")]
     pub samples: Many,
-    /// Added to the cost, eq. (8), for each leg that crosses the object; default 1.
+    /// Added to the cost of a path, eq. (8), for each leg that crosses the object (cm).
     #[serde(default = "crossing_penalty")]
     pub crossing_penalty_cm: NonNegative,
-    /// A viewpoint counts as visited when the estimated position is this near to it.
+    /// A viewpoint is reached when the estimated position is this near to it (cm).
     pub reached_within_cm: Positive,
 }
 
-/// `[planners.combined]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// The combined planner: as the local one, among the safe actions that lead nearest to the next
+/// viewpoint. Exactly one of `nearest_fraction` and `nearest_count` has to be given.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = [
+    { "required": ["nearest_fraction"] },
+    { "required": ["nearest_count"] },
+]))]
 pub struct Combined {
-    /// n_u as a fraction of the safe actions (at least one); exactly one of the two is given.
+    /// n_u, how many actions are compared, as a part of the safe ones; at least one is. Default:
+    /// none.
     pub nearest_fraction: Option<Fraction>,
-    /// n_u as a number.
+    /// n_u, how many actions are compared, as a number. Default: none.
     pub nearest_count: Option<Many>,
-    /// The feature measurement's sigma assumed in planning; default the filter's.
+    /// The feature measurement's sigma, assumed in planning only (cm). Default: the filter's.
     pub feature_measurement_sigma_cm: Option<Positive>,
-    /// Time for a decision; default as long as it takes. When it is up the best action scored so far
-    /// is taken, so that runs depend on the machine.
+    /// Time for a decision (ms). When it is up the best action scored so far is taken; the run then
+    /// depends on the machine, and `scored_actions` in steps.csv says how many were scored. Default:
+    /// none.
     pub deadline_ms: Option<Positive>,
 }
 
@@ -97,7 +106,7 @@ impl Combined {
 }
 
 /// The planners, in the order of the paper's tables.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PlannerName {
     /// The same control at every step.

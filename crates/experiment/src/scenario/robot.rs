@@ -1,54 +1,55 @@
 //! `[sensor]` and `[robot]`: what the robot sees, where it starts, how it can move.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::values::{Finite, List, NonNegative, Positive, Vec3};
 
-/// `[sensor]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// What the robot sees.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sensor {
-    /// Features farther away are not seen (cm).
+    /// Features farther away than this are not seen (cm).
     pub range_cm: Positive,
-    /// Features nearer than this are not seen (cm); default 0.1.
+    /// Features nearer than this are not seen; below the range (cm).
     #[serde(default = "min_range")]
     pub min_range_cm: NonNegative,
 }
 
-/// `[robot]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// The robot, its start and its actions.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Robot {
-    /// Roll, pitch and yaw at step 1; default zero.
+    /// Orientation at step 1: roll, pitch and yaw (degrees).
     #[serde(default)]
     pub start_deg: Vec3,
-    /// Position at step 1 (world frame, cm); default the origin.
+    /// Position at step 1, which has to be outside the object (world frame, cm).
     #[serde(default)]
     pub start_cm: Vec3,
-    /// Planners keep the robot farther than this from the surface (cm).
+    /// Planners keep farther than this from the surface (cm).
     pub clearance_cm: NonNegative,
-    /// What the planners choose from.
+    /// What the planners choose from: all combinations of five lists.
     pub actions: Actions,
 }
 
-/// `[robot.actions]`: the candidates Ω = (roll, pitch, yaw), v = R(Ω) (dx, 0, dz) of section
-/// III-D, in all combinations.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// What the planners choose from: all combinations of the five lists, at most 100 000. An action
+/// turns by Ω = (roll, pitch, yaw) and moves by v = R(Ω) (dx, 0, dz), section III-D.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Actions {
-    /// Changes of roll.
+    /// Changes of roll (degrees).
     pub roll_deg: List<Finite>,
-    /// Changes of pitch.
+    /// Changes of pitch (degrees).
     pub pitch_deg: List<Finite>,
-    /// Changes of yaw.
+    /// Changes of yaw (degrees).
     pub yaw_deg: List<Finite>,
-    /// Steps along x of the turned body (cm).
+    /// Ways along x of the turned body (cm).
     pub dx_cm: List<Finite>,
-    /// Steps along z of the turned body (cm).
+    /// Ways along z of the turned body (cm).
     pub dz_cm: List<Finite>,
-    /// An action that would take |roll| beyond this is left out.
+    /// An action that would take the roll beyond this, either way, is left out (degrees).
     pub max_roll_deg: NonNegative,
-    /// An action that would take |pitch| beyond this is left out.
+    /// An action that would take the pitch beyond this, either way, is left out (degrees).
     pub max_pitch_deg: NonNegative,
 }
 

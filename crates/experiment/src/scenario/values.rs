@@ -11,7 +11,9 @@ mod real;
 pub use count::{Count, FeatureCount, FeatureNumber, Many, Seed, Steps};
 pub use list::{LONGEST_LIST, List, Triple, Vec3};
 pub use name::Name;
-pub use real::{Finite, Fraction, LARGEST, NonNegative, Positive, SMALLEST, Spacing, Truncation};
+pub use real::{
+    AngleSigma, Finite, Fraction, LARGEST, NonNegative, Positive, SMALLEST, Spacing, Truncation,
+};
 use thiserror::Error;
 
 /// A value that may not stand where it does.

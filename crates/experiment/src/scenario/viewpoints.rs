@@ -1,12 +1,13 @@
 //! `[viewpoints]`: the places that the global planner's path may lead through.
 
 use nalgebra::Point3;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::values::{List, Positive, Vec3};
 
 /// Where viewpoints come from.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Viewpoints {
     /// Chosen in each run from the candidates of a grid, Algorithm 2.
@@ -15,25 +16,31 @@ pub enum Viewpoints {
     Fixed(Fixed),
 }
 
-/// `[viewpoints.sampled]`: a grid of candidates, with a block left out.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// Chosen in each run from the candidates of a grid, Algorithm 2; a block may be left out.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("dependencies" = {
+    "excluded_min_cm": ["excluded_max_cm"],
+    "excluded_max_cm": ["excluded_min_cm"],
+}))]
 pub struct Grid {
-    /// The corner with the smallest coordinates, a candidate itself (world frame, cm).
+    /// First candidate of the grid, the corner with the smallest coordinates (world frame, cm).
     pub min_cm: Vec3,
-    /// The corner with the largest coordinates.
+    /// The grid ends here; a candidate itself if it is a whole number of spacings away (world frame,
+    /// cm).
     pub max_cm: Vec3,
-    /// Distance of neighbouring candidates along each axis.
+    /// Distance of neighbouring candidates along each axis; at most 100 000 of them (cm).
     pub spacing_cm: Positive,
-    /// Smallest coordinates of the block whose candidates, its faces included, are left out;
-    /// default no block.
+    /// Smallest coordinates of a block whose candidates, its faces included, are left out; needs
+    /// `excluded_max_cm` (world frame, cm). Default: no block.
     pub excluded_min_cm: Option<Vec3>,
-    /// Largest coordinates of that block.
+    /// Largest coordinates of that block; needs `excluded_min_cm` (world frame, cm). Default: no
+    /// block.
     pub excluded_max_cm: Option<Vec3>,
 }
 
-/// `[viewpoints.fixed]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// The same in every run.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fixed {
     /// The viewpoints in the order in which they are visited (world frame, cm).

@@ -220,18 +220,18 @@ impl Tables {
     /// An error if it is not.
     ///
     /// # Errors
-    /// [`ExperimentError::Runs`] where runs failed, [`ExperimentError::Interrupted`] where they were
-    /// not done.
+    /// [`ExperimentError::Interrupted`] where runs were not done, else [`ExperimentError::Runs`]
+    /// where some failed.
     pub fn into_result(self) -> Result<(), ExperimentError> {
-        if !self.failures.is_empty() {
-            return Err(ExperimentError::Runs {
-                failures: self.failures,
-            });
-        }
         if self.interrupted {
-            Err(ExperimentError::Interrupted)
-        } else {
+            return Err(ExperimentError::Interrupted);
+        }
+        if self.failures.is_empty() {
             Ok(())
+        } else {
+            Err(ExperimentError::Runs {
+                failures: self.failures,
+            })
         }
     }
 
@@ -241,6 +241,34 @@ impl Tables {
             if !self.warnings.contains(&warning) {
                 self.warnings.push(warning);
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn result(failures: &[&str], interrupted: bool) -> Result<(), ExperimentError> {
+        let tables = Tables {
+            title: String::new(),
+            runs: 2,
+            experiments: Vec::new(),
+            failures: failures.iter().map(ToString::to_string).collect(),
+            interrupted,
+            warnings: Vec::new(),
+        };
+        tables.into_result()
+    }
+
+    #[test]
+    fn an_interruption_stays_one_whatever_had_failed_before() {
+        assert!(result(&[], false).is_ok());
+        let failed = result(&["a"], false);
+        assert!(matches!(failed, Err(ExperimentError::Runs { failures }) if failures == ["a"]));
+        for failures in [&[][..], &["a"]] {
+            let stopped = result(failures, true);
+            assert!(matches!(stopped, Err(ExperimentError::Interrupted)));
         }
     }
 }

@@ -49,13 +49,18 @@ fn an_empty_file_is_called_so() {
     for empty in ["", "\n\n", "# only a comment\n"] {
         let error = parsed(empty).unwrap_err();
         assert!(error.message().contains("has no keys"), "{error}");
-        assert!(error.remedy().unwrap().contains("docs/scenario.md"));
+        assert!(error.remedy().unwrap().contains("adslam new scenario"));
     }
 }
 
 #[test]
 fn bad_syntax_is_shown_where_it_is() {
-    assert_error(parsed("name = \n"), "string values must be quoted", "", "");
+    assert_error(
+        parsed("name = \n"),
+        "neither a number nor a text in quotes",
+        "",
+        "",
+    );
     assert_error(
         parsed("name = \"a\nsteps = 4"),
         "invalid basic string",
@@ -72,7 +77,7 @@ fn a_report_shows_file_line_caret_and_remedy() {
     let report = miette_report(&polygon_with("range_cm = 3.0", "range_cm = -3.0").unwrap_err());
     for part in [
         "-3 is not above 0",
-        "test.toml:52:12",
+        "test.toml:53:12",
         "range_cm = -3.0",
         "here",
         "help: write a number above 0",

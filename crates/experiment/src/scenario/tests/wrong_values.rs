@@ -48,6 +48,62 @@ fn keys() {
     );
 }
 
+/// A key in the wrong table, and a table that is not named in full.
+#[test]
+fn places() {
+    refused(
+        "clearance_cm = 0.3",
+        "clearance_cm = 0.3\nmin_range_cm = 0.2",
+        "unknown key `min_range_cm`",
+        "min_range_cm",
+        "`min_range_cm` belongs into [sensor]; the keys here: `start_deg`",
+    );
+    refused(
+        "[motion.translation.back_and_forth]",
+        "[motion.translation]",
+        "`step_cm` is not one of the choices",
+        "step_cm",
+        "`step_cm` belongs into [motion.translation.back_and_forth]",
+    );
+    refused(
+        "range_cm = 3.0",
+        "",
+        "the key `range_cm` is missing",
+        "[sensor]",
+        "add `range_cm = …` here. Features farther away than this are not seen (cm).",
+    );
+    refused(
+        "[viewpoints.sampled]",
+        "[viewpoints]\n[viewpoint.sampled]",
+        "unknown key `viewpoint`",
+        "viewpoint",
+        "did you mean `viewpoints`?",
+    );
+}
+
+#[test]
+fn no_choice() {
+    let remedy = |more: &str| {
+        let error = super::parsed(&format!("name = \"a\"\nsteps = 3\n{more}")).unwrap_err();
+        error.remedy().unwrap().to_owned()
+    };
+    assert_eq!(
+        remedy("[object]\n"),
+        "write one of [object.points], [object.mesh], [object.phantom]"
+    );
+    assert!(remedy("").starts_with("add one of [object.points], "));
+    assert!(remedy("[object.phantom]\n").starts_with("add a table [noise]. "));
+    assert_eq!(
+        remedy("[motion]\ntranslation = \"sinusoid\"\n"),
+        "write one of [motion.translation.back_and_forth], [motion.translation.sinusoid]"
+    );
+    assert_eq!(
+        remedy("[object.phantom]\nsteps = 5\n"),
+        "`steps` belongs into the file's own keys, above the first [table]; the keys here: \
+         `features`, `feature_seed`, `spacing_cm`"
+    );
+}
+
 #[test]
 fn kinds_of_values() {
     refused(
@@ -144,6 +200,13 @@ fn numbers() {
         "-0.02 is below 0",
         "-0.02",
         "0 or a number",
+    );
+    refused(
+        "rotation_sigma_rad = 0.02",
+        "rotation_sigma_rad = 5.0",
+        "5 is below 0, or more than half a turn",
+        "5.0",
+        "1 degree is 0.01745",
     );
     refused(
         "0.5, 1.0], # 3",

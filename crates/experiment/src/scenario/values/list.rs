@@ -1,11 +1,14 @@
 //! Vectors and other triples, and lists that are not empty.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Deref;
 
 use nalgebra::{Point3, Vector3};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+use serde::{Serialize, Serializer};
 
 use super::{Finite, ValueError};
 
@@ -54,6 +57,26 @@ impl<'de> Deserialize<'de> for Vec3 {
     }
 }
 
+impl Serialize for Vec3 {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        <[f64; 3]>::from(self.0).serialize(serializer)
+    }
+}
+
+impl JsonSchema for Vec3 {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Vec3".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        Triple::<Finite>::json_schema(generator)
+    }
+}
+
 /// Three values, no more and no fewer: serde's own arrays let toml drop a fourth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Triple<T>(pub [T; 3]);
@@ -89,6 +112,21 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Triple<T> {
     }
 }
 
+impl<T: JsonSchema> JsonSchema for Triple<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        format!("Triple_of_{}", T::schema_name()).into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let items = generator.subschema_for::<T>();
+        json_schema!({ "type": "array", "items": items, "minItems": 3, "maxItems": 3 })
+    }
+}
+
 /// A list of at least one element and at most [`LONGEST_LIST`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct List<T>(Vec<T>);
@@ -121,11 +159,26 @@ impl<T> TryFrom<Vec<T>> for List<T> {
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for List<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let expects = "a list in brackets";
+        let expects = "a list in brackets, such as [1.0, 2.0] or [\"a\", \"b\"]";
         deserializer.deserialize_any(SequenceVisitor {
             expects,
             of: PhantomData,
         })
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for List<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        format!("List_of_{}", T::schema_name()).into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let items = generator.subschema_for::<T>();
+        json_schema!({ "type": "array", "items": items, "minItems": 1, "maxItems": LONGEST_LIST })
     }
 }
 

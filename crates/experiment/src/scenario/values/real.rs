@@ -1,9 +1,13 @@
 //! Real numbers within bounds.
 
+use std::borrow::Cow;
+use std::f64::consts::PI;
 use std::fmt;
-use std::ops::Deref;
+use std::ops::{Deref, RangeInclusive};
 
 use adslam_surface::{MAX_PHANTOM_SPACING_CM, MIN_PHANTOM_SPACING_CM};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Serialize;
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 
 use super::ValueError;
@@ -34,22 +38,25 @@ fn finite(value: f64, remedy: &str) -> Result<f64, ValueError> {
     }
 }
 
+/// A number type: its range, whether 0 is allowed beside that, what a file should have there, and what
+/// is said of a finite number out of range.
 macro_rules! number {
-    ($(#[$doc:meta])* $name:ident, $expects:literal, $problem:literal, $allowed:expr) => {
+    ($(#[$doc:meta])* $name:ident, $range:expr, or_zero: $or_zero:literal, $expects:literal, $problem:literal) => {
         $(#[$doc])*
-        #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+        #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Serialize)]
         pub struct $name(f64);
 
         impl $name {
+            const RANGE: RangeInclusive<f64> = $range;
+
             /// The value, if it is allowed.
             ///
             /// # Errors
             /// When it is not; the error says why and what to write.
             pub fn new(value: f64) -> Result<Self, ValueError> {
                 const REMEDY: &str = concat!("write ", $expects);
-                let allowed: fn(f64) -> bool = $allowed;
                 let value = finite(value, REMEDY)?;
-                if allowed(value) {
+                if Self::RANGE.contains(&value) || ($or_zero && value == 0.0) {
                     Ok(Self(value))
                 } else {
                     Err(ValueError::new(format!(concat!("{} ", $problem), value), REMEDY))
@@ -70,52 +77,81 @@ macro_rules! number {
                 deserializer.deserialize_any(NumberVisitor { expects: $expects, new: Self::new })
             }
         }
+
+        impl JsonSchema for $name {
+            fn inline_schema() -> bool {
+                true
+            }
+
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+
+            fn json_schema(_: &mut SchemaGenerator) -> Schema {
+                let minimum = if $or_zero { 0.0 } else { *Self::RANGE.start() };
+                json_schema!({ "type": "number", "minimum": minimum, "maximum": Self::RANGE.end() })
+            }
+        }
     };
 }
 
 number!(
     /// Any number, up to [`LARGEST`] either way.
     Finite,
+    -LARGEST..=LARGEST,
+    or_zero: false,
     "a number between -1000000 and 1000000",
-    "is no number",
-    |_| true
+    "is no number"
 );
 number!(
     /// A number above zero (at least [`SMALLEST`]).
     Positive,
+    SMALLEST..=LARGEST,
+    or_zero: false,
     "a number above 0, such as 0.5",
-    "is not above 0",
-    |value| value >= SMALLEST
+    "is not above 0"
 );
 number!(
     /// Zero or a [`Positive`] number.
     NonNegative,
+    SMALLEST..=LARGEST,
+    or_zero: true,
     "0 or a number above it, such as 0.02",
-    "is below 0, or too near to it",
-    |value| value == 0.0 || value >= SMALLEST
+    "is below 0, or too near to it"
+);
+number!(
+    /// The sigma of an angle in radians: 0, or up to half a turn.
+    AngleSigma,
+    SMALLEST..=PI,
+    or_zero: true,
+    "0 or a number of radians up to 3.14, such as 0.02 (1 degree is 0.01745)",
+    "is below 0, or more than half a turn"
 );
 number!(
     /// A part of a whole: above 0, at most 1.
     Fraction,
+    SMALLEST..=1.0,
+    or_zero: false,
     "a number above 0 and up to 1, such as 0.1",
-    "is no fraction",
-    |value| (SMALLEST..=1.0).contains(&value)
+    "is no fraction"
 );
 number!(
     /// Where a Gaussian is cut off, in multiples of its sigma: 0.5 to 100. Below that the rest has
     /// little in common with a Gaussian, and drawing from it by rejection takes long.
     Truncation,
+    0.5..=100.0,
+    or_zero: false,
     "a number of sigmas between 0.5 and 100, such as 2.0",
-    "is no sensible number of sigmas",
-    |value| (0.5..=100.0).contains(&value)
+    "is no sensible number of sigmas"
 );
 number!(
     /// Distance between the vertices of the heart phantom, within what
     /// [`heart_phantom`](adslam_surface::heart_phantom) takes.
     Spacing,
+    MIN_PHANTOM_SPACING_CM..=MAX_PHANTOM_SPACING_CM,
+    or_zero: false,
     "a distance between 0.2 and 0.6 cm, such as 0.4",
-    "cm is no sensible distance between vertices",
-    |value| (MIN_PHANTOM_SPACING_CM..=MAX_PHANTOM_SPACING_CM).contains(&value)
+    "cm is no sensible distance between vertices"
 );
 
 impl Finite {

@@ -1,0 +1,93 @@
+//! `adslam new`
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use adslam_experiment::ExperimentError;
+use adslam_experiment::diagnostics::InputError;
+use adslam_experiment::output::{AtomicFile, prepare_folder};
+use adslam_experiment::scenario::Scenario;
+
+use crate::answer::Answer;
+use crate::args::{NewArgs, NewFile};
+use crate::paths::folder_of;
+
+const SCENARIO: &str = include_str!("../../templates/scenario.toml");
+const CONFIG: &str = include_str!("../../templates/config.toml");
+
+/// Writes a commented scenario or configuration to start from.
+///
+/// # Errors
+/// A file that is there already, one that cannot be written, or a scenario that cannot be used.
+pub fn new(file: &NewFile) -> Result<(), ExperimentError> {
+    let (NewFile::Scenario(args) | NewFile::Config { args, .. }) = file;
+    Answer::give(args.json, |answer| match file {
+        NewFile::Scenario(_) => {
+            let out = write(args, "scenario.toml", |_| Ok(SCENARIO.to_owned()), answer)?;
+            answer.say(format_args!(
+                "wrote {0}; next: adslam run {0} --planner combined --out results/run",
+                out.display()
+            ));
+            Ok(())
+        }
+        NewFile::Config { scenario, .. } => {
+            let text = |out: &Path| configuration(out, scenario.as_deref());
+            let out = write(args, "config.toml", text, answer)?;
+            answer.say(format_args!(
+                "wrote {0}; next: adslam tables {0} --out results",
+                out.display()
+            ));
+            Ok(())
+        }
+    })
+}
+
+/// Writes the text for a place, unless something is there; returns the place.
+fn write(
+    args: &NewArgs,
+    default: &str,
+    text: impl FnOnce(&Path) -> Result<String, InputError>,
+    answer: &mut Answer,
+) -> Result<PathBuf, ExperimentError> {
+    let out = args.out.clone().unwrap_or_else(|| default.into());
+    if !args.force && fs::symlink_metadata(&out).is_ok() {
+        let message = format!("{} is there already", out.display());
+        return Err(InputError::about_file(&out, message)
+            .with_help("give another path with --out, or replace it with --force")
+            .into());
+    }
+    let text = text(&out)?;
+    prepare_folder(folder_of(&out))?;
+    AtomicFile::with_content(&out, text.as_bytes())?.commit()?;
+    answer.set_files(&[&out]);
+    Ok(out)
+}
+
+/// The configuration at `out`, of a scenario or, if none is given, of the `scenario.toml` beside it.
+fn configuration(out: &Path, scenario: Option<&Path>) -> Result<String, InputError> {
+    let folder = folder_of(out);
+    let beside = out.with_file_name("scenario.toml");
+    let path = scenario.unwrap_or(&beside);
+    if !path.exists() {
+        let message = format!("there is no scenario {}", path.display());
+        return Err(InputError::about_file(path, message).with_help(format!(
+            "name one with --scenario, or write it first: adslam new scenario --out {}",
+            path.display()
+        )));
+    }
+    Scenario::load(path)?;
+    let name = relative(path, folder);
+    let name = name.to_str().ok_or_else(|| {
+        let message = format!("{} is no Unicode text", path.display());
+        InputError::about_file(path, message).with_help("give the scenario a plain name")
+    })?;
+    let quoted = toml::Value::from(name).to_string();
+    Ok(CONFIG.replace("{scenario}", &quoted))
+}
+
+/// The path as it counts from `folder`; absolute where the one does not lead to the other.
+fn relative(path: &Path, folder: &Path) -> PathBuf {
+    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let (path, folder) = (absolute(path), absolute(folder));
+    pathdiff::diff_paths(&path, &folder).unwrap_or(path)
+}

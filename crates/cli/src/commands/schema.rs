@@ -1,0 +1,18 @@
+//! `adslam schema`
+
+use adslam_experiment::diagnostics::FileKind;
+use adslam_experiment::schema::json_schema;
+
+use crate::args::SchemaKind;
+use crate::print::say;
+
+/// Prints the JSON Schema of a kind of file.
+pub fn schema(kind: SchemaKind) {
+    say(schema_text(kind.into()).trim_end());
+}
+
+/// The JSON Schema of a kind of file as text that ends with a line break, as files do.
+#[must_use]
+pub fn schema_text(kind: FileKind) -> String {
+    format!("{:#}\n", json_schema(kind))
+}

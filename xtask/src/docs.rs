@@ -1,0 +1,70 @@
+//! `cargo xtask docs`: the files that are made from the code.
+
+mod reference;
+mod words;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use adslam_cli::{FAILURE, schema_text};
+use adslam_experiment::diagnostics::FileKind;
+use adslam_experiment::schema::json_schema;
+use serde_json::Value;
+
+const KINDS: [FileKind; 3] = [
+    FileKind::Scenario,
+    FileKind::Configuration,
+    FileKind::Published,
+];
+const TEMPLATE: &str = include_str!("../templates/scenario.md");
+
+/// Writes every file whose content has changed, says which, and returns the exit code.
+pub fn renew(workspace: &Path) -> ExitCode {
+    match stale(workspace) {
+        Ok(files) => {
+            for (path, content) in files {
+                if let Err(error) = fs::write(&path, content) {
+                    eprintln!("error: cannot write {}: {error}", path.display());
+                    return ExitCode::from(FAILURE);
+                }
+                println!("wrote {}", path.display());
+            }
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(FAILURE)
+        }
+    }
+}
+
+/// The files whose content is not what the code makes, with what it makes.
+fn stale(workspace: &Path) -> Result<Vec<(PathBuf, String)>, String> {
+    let schemas: Vec<Value> = KINDS.map(json_schema).into();
+    let mut files = vec![(
+        workspace.join("docs/scenario.md"),
+        reference::render(TEMPLATE, &schemas)?,
+    )];
+    for kind in KINDS {
+        let name = format!("schemas/{}.schema.json", kind.short_name());
+        files.push((workspace.join(name), schema_text(kind)));
+    }
+    files.retain(|(path, content)| fs::read_to_string(path).ok().as_ref() != Some(content));
+    Ok(files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_files_made_from_the_code_are_up_to_date() {
+        let files = stale(&crate::workspace()).unwrap();
+        let names: Vec<_> = files.iter().map(|(path, _)| path.display()).collect();
+        assert!(
+            names.is_empty(),
+            "`cargo xtask docs` renews {names:?}, which the code has left behind"
+        );
+    }
+}
