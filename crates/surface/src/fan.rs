@@ -32,6 +32,8 @@ pub struct Fan {
     ends: [Vec<f64>; 3],
     /// How clearly each passes through the face at hand.
     clearness: Vec<f64>,
+    /// The surface's points, from the place.
+    points: Vec<Vector3<f64>>,
 }
 
 impl Fan {
@@ -86,7 +88,10 @@ impl Fan {
         ends: &[Point],
         exempt: impl Fn(&[usize; 3], usize) -> bool,
     ) {
-        let (around, size) = self.lay_out(from, ends);
+        if self.open.is_empty() {
+            return;
+        }
+        let (around, rounding) = self.lay_out(surface, from, ends);
         let arch = pulp::Arch::new();
         for (face, numbers) in surface.topology().faces().iter().enumerate() {
             if self.open.is_empty() {
@@ -96,27 +101,26 @@ impl Fan {
                 continue;
             }
             let corners = surface.corners(face);
-            let view = FaceView::from(from, corners, size);
+            let view = FaceView::of(numbers.map(|i| &self.points[i]), rounding);
             let most = arch.dispatch(WriteClearness {
                 view: &view,
                 ends: self.ends.each_ref().map(Vec::as_slice),
                 clearness: &mut self.clearness,
             });
-            if most < -view.rounding {
+            if most < -rounding {
                 continue;
             }
             self.close(|id, clearness| {
-                clearness >= -view.rounding
+                clearness >= -rounding
                     && !exempt(numbers, id)
-                    && (clearness > view.rounding
-                        || segment_touches_triangle(from, &ends[id], corners))
+                    && (clearness > rounding || segment_touches_triangle(from, &ends[id], corners))
             });
         }
     }
 
-    /// Lists the ends of the open segments as seen from `from`; the box round all segments, and their
-    /// largest coordinate.
-    fn lay_out(&mut self, from: &Point, ends: &[Point]) -> (Bounds, f64) {
+    /// Lists the ends of the open segments and the surface's points as seen from `from`; the box round all
+    /// segments, and the clearness beyond which, either way, there is no doubt.
+    fn lay_out(&mut self, surface: &Surface, from: &Point, ends: &[Point]) -> (Bounds, f64) {
         let mut around = Bounds::of([from]);
         let mut size = 0.0_f64;
         let filled = self.open.len().next_multiple_of(LANES);
@@ -130,7 +134,12 @@ impl Fan {
             around.include(&ends[id]);
         }
         self.clearness.resize(filled, 0.0);
-        (around, size)
+        self.points.clear();
+        self.points
+            .extend(surface.points().iter().map(|p| p - from));
+        size = self.points.iter().fold(size, |size, v| size.max(v.amax()));
+        // Products below the normal numbers lose digits; no doubt is resolved there.
+        (around, ROUNDING * size * size * size + f64::MIN_POSITIVE)
     }
 
     /// Closes the open segments for which `touches` holds, given the number of the end and the clearness;
@@ -161,32 +170,23 @@ struct FaceView {
     planes: [Vector3<f64>; 3],
     /// What the three products must add up to where the segment reaches the face's plane.
     volume: f64,
-    /// A clearness beyond this, either way, is beyond doubt.
-    rounding: f64,
 }
 
 impl FaceView {
-    /// `size`: the largest coordinate of the segments' ends as seen from the place.
-    fn from(place: &Point, corners: [&Point; 3], size: f64) -> Self {
-        let [a, b, c] = corners.map(|corner| corner - place);
-        let size = [a, b, c].iter().fold(size, |size, v| size.max(v.amax()));
-        // Products below the normal numbers lose digits; no doubt is resolved there.
-        let rounding = ROUNDING * size * size * size + f64::MIN_POSITIVE;
-        let planes = [a.cross(&b), b.cross(&c), c.cross(&a)];
-        let volume = planes[0].dot(&c);
+    /// `corners` from the place.
+    fn of([a, b, c]: [&Vector3<f64>; 3], rounding: f64) -> Self {
+        let planes = [a.cross(b), b.cross(c), c.cross(a)];
+        let volume = planes[0].dot(c);
         if volume.abs() <= rounding {
             // Seen edge on: everything is in doubt.
-            let planes = [Vector3::zeros(); 3];
             return Self {
-                planes,
+                planes: [Vector3::zeros(); 3],
                 volume: 0.0,
-                rounding,
             };
         }
         Self {
             planes: planes.map(|normal| normal * volume.signum()),
             volume: volume.abs(),
-            rounding,
         }
     }
 }
