@@ -1,4 +1,4 @@
-//! Decisions of the local and the combined planner, on situations from runs of the shipped scenarios.
+//! Decisions of the local and the combined planner, in situations from the shipped scenarios.
 //!
 //! `local_decision` and `combined_decision` time the scoring alone, of candidates whose visible sets are
 //! known; `whole_decision` all that a planner does for one step, and `decision_parts` what is in it besides.
@@ -44,7 +44,7 @@ struct Case {
     file: &'static str,
     features: Option<usize>,
     setup: OnceLock<Setup>,
-    moments: [OnceLock<Vec<Moment>>; 4],
+    moments: OnceLock<Vec<Moment>>,
 }
 
 static CASES: LazyLock<[Case; 4]> = LazyLock::new(|| {
@@ -53,7 +53,7 @@ static CASES: LazyLock<[Case; 4]> = LazyLock::new(|| {
         file,
         features,
         setup: OnceLock::new(),
-        moments: Default::default(),
+        moments: OnceLock::new(),
     };
     [
         case("polygon", "polygon.toml", None),
@@ -67,7 +67,8 @@ static CASES: LazyLock<[Case; 4]> = LazyLock::new(|| {
 struct Moment {
     belief: Belief,
     feature_motion: Vec<Vector3<f64>>,
-    goal: Option<Point3<f64>>,
+    /// The viewpoint that a robot which visits them is heading for.
+    goal: Point3<f64>,
 }
 
 struct Recorder<'a> {
@@ -79,10 +80,11 @@ impl Observer for Recorder<'_> {
     fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
         if STEPS.contains(&view.step) {
             let goal = view.decision.and_then(|(decision, _)| decision.goal);
+            let (_, goal) = goal.unwrap();
             self.moments.push(Moment {
                 belief: view.belief.clone(),
                 feature_motion: self.setup.known_feature_motion(view.step),
-                goal: goal.map(|(_, viewpoint)| viewpoint),
+                goal,
             });
         }
         if Some(&view.step) == STEPS.last() {
@@ -106,13 +108,14 @@ impl Case {
         })
     }
 
-    fn moments(&self, planner: PlannerName) -> &[Moment] {
-        self.moments[planner as usize].get_or_init(|| {
+    /// Along the way of the global planner, which leads around the object and costs little.
+    fn moments(&self) -> &[Moment] {
+        self.moments.get_or_init(|| {
             let mut recorder = Recorder {
                 setup: self.setup(),
                 moments: Vec::new(),
             };
-            let interrupt = Interrupt::new();
+            let (planner, interrupt) = (PlannerName::Global, Interrupt::new());
             // The recorder ends it after the last of the steps.
             let _ = simulate(self.setup(), planner, SEED, &interrupt, &mut recorder);
             assert_eq!(recorder.moments.len(), STEPS.len());
@@ -153,15 +156,13 @@ impl Candidates {
         let (mut surfaces, mut safe) = (ObjectSurfaces::default(), SafeActions::default());
         let [now, after] = surfaces.place(&situation).unwrap();
         safe.find(&situation, [now, after]).unwrap();
-        if let Some(goal) = &moment.goal {
+        if planner == PlannerName::Combined {
             let nearest = case.setup().scenario.planners.combined.nearest();
             let nearest = match nearest {
                 adslam_experiment::scenario::Nearest::Fraction(share) => Nearest::Fraction(share),
                 adslam_experiment::scenario::Nearest::Count(count) => Nearest::Count(count),
             };
-            safe.keep_nearest(goal, nearest.of(safe.candidates().len()));
-        } else {
-            assert_eq!(planner, PlannerName::Local);
+            safe.keep_nearest(&moment.goal, nearest.of(safe.candidates().len()));
         }
         let model = &case.setup().planning;
         let mut sets = VisibleSets::default();
@@ -240,7 +241,7 @@ fn scoring(c: &mut Criterion, name: &str, planner: PlannerName) {
     for case in &*CASES {
         let noise = case.noise(planner);
         let candidates: Vec<(&Moment, Candidates)> = case
-            .moments(planner)
+            .moments()
             .iter()
             .map(|moment| (moment, Candidates::of(case, planner, moment)))
             .collect();
@@ -302,7 +303,7 @@ fn whole_decision(c: &mut Criterion) {
             PlannerName::Global,
         ] {
             group.bench_function(BenchmarkId::new(planner.to_string(), case.name), |b| {
-                let moments = case.moments(planner);
+                let moments = case.moments();
                 let mut next = in_turn(moments);
                 let belief = &moments[0].belief;
                 let (mut decider, _) = build_planner(case.setup(), planner, belief, SEED).unwrap();
@@ -319,7 +320,7 @@ fn decision_parts(c: &mut Criterion) {
     group.sampling_mode(SamplingMode::Flat);
     for case in &*CASES {
         group.bench_function(BenchmarkId::new("clearance", case.name), |b| {
-            let mut next = in_turn(case.moments(PlannerName::Local));
+            let mut next = in_turn(case.moments());
             let (mut surfaces, mut safe) = (ObjectSurfaces::default(), SafeActions::default());
             b.iter(|| {
                 let situation = case.situation(next());
@@ -330,7 +331,7 @@ fn decision_parts(c: &mut Criterion) {
         });
 
         group.bench_function(BenchmarkId::new("visibility", case.name), |b| {
-            let moments = case.moments(PlannerName::Local);
+            let moments = case.moments();
             let candidates: Vec<(&Moment, Candidates)> = moments
                 .iter()
                 .map(|moment| (moment, Candidates::of(case, PlannerName::Local, moment)))
