@@ -123,6 +123,7 @@ impl FiguresArgs {
             runs: Some(self.runs),
             only: self.scenario.labels(),
             mesh: self.mesh.clone(),
+            record: false,
         };
         let plan = TablePlan::load(&paper(), &options).map_err(ExperimentError::from)?;
         eprintln!("running {} more for the box plots", plan.total_runs());

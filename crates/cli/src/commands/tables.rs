@@ -19,6 +19,7 @@ pub fn tables(args: &TablesArgs, interrupt: &Interrupt) -> Result<(), Experiment
         runs: args.runs,
         only: args.only.clone(),
         mesh: args.mesh.clone(),
+        record: false,
     };
     let plan = TablePlan::load(&args.config, &options)?;
     prepare_folder(&args.out)?;

@@ -129,6 +129,11 @@ impl Scenario {
         self.document.path()
     }
 
+    /// What that file says; overrides are not in it.
+    pub fn text(&self) -> &str {
+        self.document.text()
+    }
+
     /// The scenario as text, overrides apart.
     pub(crate) fn document(&self) -> &Document {
         &self.document
