@@ -15,12 +15,13 @@ use figures::FiguresArgs;
 #[derive(Debug, Parser)]
 #[command(name = "cargo xtask", about = "Tasks of the adslam project")]
 enum Task {
-    /// Run every method on both environments and print Tables I–IV beside the published values
+    /// Run every method on both environments, print Tables I–IV beside the published values, and
+    /// make a report of them
     ReproduceTables {
         /// Runs of each method
         #[arg(long, default_value_t = 5, value_name = "N")]
         runs: usize,
-        /// The folder to write tables.md and tables.json to
+        /// The folder to write tables.md, tables.json and report.html to
         #[arg(long, default_value = "results", value_name = "DIR")]
         out: PathBuf,
         /// Which environment
@@ -49,6 +50,7 @@ fn main() -> ExitCode {
                 only: scenario.labels(),
                 mesh,
                 out,
+                html: true,
             };
             exit_code(tables(&args, interrupt))
         }

@@ -38,10 +38,11 @@ pub enum Command {
     )]
     Filter(FilterArgs),
     /// Run everything that a configuration asks for and tabulate it
-    #[command(
-        after_help = "Writes tables.md and tables.json into the folder given with --out.\n\n\
-        Example:\n  adslam tables configs/accumulating.toml --runs 20 --out results/accumulating"
-    )]
+    #[command(after_help = "Writes into the folder given with --out:\n  \
+        tables.md, tables.json   the tables, and every run\n  \
+        report.html, replays/    a page with figures and replays to open in a browser, with \
+        --html\n\n\
+        Example:\n  adslam tables configs/accumulating.toml --runs 20 --out results/accumulating")]
     Tables(TablesArgs),
     /// Say whether scenarios and configurations are valid, and what is wrong with them
     #[command(after_help = "Example:\n  adslam check scenarios/*.toml configs/*.toml")]
@@ -115,6 +116,9 @@ pub struct TablesArgs {
     /// The folder to write to; made if it does not exist
     #[arg(long, default_value = "results", value_name = "DIR")]
     pub out: PathBuf,
+    /// Write report.html too, a page with figures to open in a browser, and replays beside it
+    #[arg(long)]
+    pub html: bool,
 }
 
 impl Command {

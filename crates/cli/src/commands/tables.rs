@@ -8,7 +8,8 @@ use adslam_experiment::tables::{TablePlan, TablesOptions, markdown, terminal, wr
 use crate::print::{say, warn};
 use crate::{TablesArgs, progress};
 
-/// Runs a configuration, prints its tables, and writes tables.md and tables.json.
+/// Runs a configuration, prints its tables, and writes tables.md and tables.json, and report.html
+/// where it is asked for.
 ///
 /// Interrupted, it still tabulates and writes the runs that have finished.
 ///
@@ -19,7 +20,7 @@ pub fn tables(args: &TablesArgs, interrupt: &Interrupt) -> Result<(), Experiment
         runs: args.runs,
         only: args.only.clone(),
         mesh: args.mesh.clone(),
-        record: false,
+        record: args.html,
     };
     let plan = TablePlan::load(&args.config, &options)?;
     prepare_folder(&args.out)?;
@@ -38,5 +39,12 @@ pub fn tables(args: &TablesArgs, interrupt: &Interrupt) -> Result<(), Experiment
         md.display(),
         json.display()
     ));
+    if args.html {
+        let page = adslam_report::write(&tables, &args.out)?;
+        say(format_args!(
+            "wrote {}; open it in a browser, no network needed",
+            page.display()
+        ));
+    }
     tables.into_result()
 }

@@ -30,6 +30,7 @@ pub struct TablePlan {
     first_seed: u64,
     record: bool,
     sources: Vec<SourceFile>,
+    mesh: Option<PathBuf>,
     experiments: Vec<(ExperimentPlan, Setup)>,
 }
 
@@ -49,6 +50,8 @@ pub struct Tables {
     pub experiments: Vec<ExperimentTables>,
     /// The configuration and then its scenarios, each once.
     pub sources: Vec<SourceFile>,
+    /// The mesh that took the place of the scenarios' own, as [`TablesOptions::mesh`] says.
+    pub mesh: Option<PathBuf>,
     /// Runs that failed, and why.
     pub failures: Vec<String>,
     /// Whether the user stopped it before all runs were done.
@@ -164,6 +167,7 @@ impl TablePlan {
             first_seed,
             record: options.record,
             sources,
+            mesh: options.mesh.clone(),
             experiments: ready,
         })
     }
@@ -201,6 +205,7 @@ impl TablePlan {
             first_seed: self.first_seed,
             experiments: Vec::new(),
             sources: self.sources.clone(),
+            mesh: self.mesh.clone(),
             failures: Vec::new(),
             interrupted: false,
             warnings: Vec::new(),
