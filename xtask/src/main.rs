@@ -27,7 +27,7 @@ enum Task {
         /// Which environment
         #[arg(long, default_value = "all")]
         scenario: Environment,
-        /// An STL file, in mm, to take for the heart in place of the built-in phantom
+        /// An STL, OBJ or PLY file, in mm, to take for the heart in place of the built-in phantom
         #[arg(long, value_name = "FILE")]
         mesh: Option<PathBuf>,
     },

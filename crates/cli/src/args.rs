@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use adslam_experiment::ExperimentError;
 use adslam_experiment::run::Interrupt;
-use adslam_experiment::scenario::PlannerName;
+use adslam_experiment::scenario::{LengthUnit, PlannerName};
+use clap::builder::RangedU64ValueParser;
 use clap::{Args, Subcommand};
 
 use crate::commands;
@@ -44,6 +45,12 @@ pub enum Command {
         --html\n\n\
         Example:\n  adslam tables configs/accumulating.toml --runs 20 --out results/accumulating")]
     Tables(TablesArgs),
+    /// Say what a mesh file holds and whether it will serve as an object
+    #[command(
+        after_help = "Reads STL, OBJ and PLY. Exit code 2 where the mesh will not serve, with what \
+        to do about it.\n\nExample:\n  adslam mesh heart.stl --unit mm"
+    )]
+    Mesh(MeshArgs),
     /// Say whether scenarios and configurations are valid, and what is wrong with them
     #[command(after_help = "Example:\n  adslam check scenarios/*.toml configs/*.toml")]
     Check {
@@ -67,7 +74,7 @@ pub struct RunArgs {
     /// The folder to write to; made if it does not exist
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// An STL file to take for the object in place of the scenario's
+    /// An STL, OBJ or PLY file to take for the object in place of the scenario's
     #[arg(long, value_name = "FILE")]
     pub mesh: Option<PathBuf>,
     /// Write replay.html too, a page to open in a browser
@@ -110,7 +117,7 @@ pub struct TablesArgs {
     /// Only this experiment of the configuration; may be given again
     #[arg(long, value_name = "LABEL")]
     pub only: Vec<String>,
-    /// An STL file to take for the object of every experiment with a mesh or a phantom
+    /// An STL, OBJ or PLY file to take for the object of every experiment with a mesh or a phantom
     #[arg(long, value_name = "FILE")]
     pub mesh: Option<PathBuf>,
     /// The folder to write to; made if it does not exist
@@ -119,6 +126,27 @@ pub struct TablesArgs {
     /// Write report.html too, a page with figures to open in a browser, and replays beside it
     #[arg(long)]
     pub html: bool,
+}
+
+/// `adslam mesh`
+#[derive(Debug, Args)]
+pub struct MeshArgs {
+    /// The mesh file
+    pub file: PathBuf,
+    /// The unit of its coordinates: mm, cm or m
+    #[arg(long, default_value = "mm", value_name = "UNIT")]
+    pub unit: LengthUnit,
+    /// Features that a scenario would pick from it
+    #[arg(
+        long,
+        default_value_t = 50,
+        value_name = "N",
+        value_parser = RangedU64ValueParser::<usize>::new().range(4..=2000)
+    )]
+    pub features: usize,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 impl Command {
@@ -132,6 +160,7 @@ impl Command {
             Self::Replay(args) => commands::replay(args),
             Self::Filter(args) => commands::filter(args, interrupt),
             Self::Tables(args) => commands::tables(args, interrupt),
+            Self::Mesh(args) => commands::mesh(args),
             Self::Check { files } => commands::check(files),
         }
     }

@@ -17,6 +17,7 @@ mod filter;
 mod help;
 #[cfg(unix)]
 mod interrupt;
+mod mesh;
 mod replay;
 mod run;
 mod support;

@@ -26,7 +26,7 @@ pub use motion::{
     Rotation, Swing, Translation,
 };
 pub use noise::{DeformationNoise, Filter, FilterNoise, Noise, Structure};
-pub use object::{LengthUnit, Mesh, MeshPlacement, Object, Phantom, Points};
+pub use object::{LengthUnit, Mesh, MeshPlacement, Object, Phantom, Points, UnknownUnit};
 pub use planners::{
     Combined, Global, Local, Nearest, PlannerName, Planners, Predetermined, UnknownPlanner,
 };

@@ -1,9 +1,13 @@
 //! `[object]`: what is mapped, and `[mesh_placement]`.
 
+use std::fmt;
 use std::path::PathBuf;
+use std::str::FromStr;
 
+use adslam_models::EulerAngles;
 use adslam_surface::DEFAULT_PHANTOM_SPACING_CM;
 use serde::Deserialize;
+use thiserror::Error;
 
 use super::values::{FeatureCount, FeatureNumber, List, Seed, Spacing, Triple, Vec3};
 
@@ -51,12 +55,15 @@ pub struct Points {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
-    /// The STL file. In a file it counts from the scenario's folder; here it is ready to open.
+    /// The STL, OBJ or PLY file. In a file it counts from the scenario's folder; here it is ready to open.
     pub file: PathBuf,
     /// The unit of its coordinates; default mm.
     #[serde(default)]
     pub unit: LengthUnit,
-    /// Added to every vertex after scaling (world frame, cm); default none.
+    /// Roll, pitch and yaw by which the mesh is turned about its own origin; default none.
+    #[serde(default)]
+    pub rotation_deg: Vec3,
+    /// Added to every vertex after scaling and turning (world frame, cm); default none.
     #[serde(default)]
     pub offset_cm: Vec3,
     /// Features to pick from its vertices; default 50.
@@ -65,6 +72,15 @@ pub struct Mesh {
     /// Seed of the picking; default 1.
     #[serde(default = "feature_seed")]
     pub feature_seed: Seed,
+}
+
+impl Mesh {
+    /// `mesh`, read from the file, where it belongs in the world (cm).
+    pub fn placed(&self, mesh: adslam_surface::Mesh) -> adslam_surface::Mesh {
+        let turn = EulerAngles::from_vector(&self.rotation_deg.map(f64::to_radians));
+        mesh.rotated(&turn.rotation())
+            .scaled_and_moved(self.unit.in_cm(), *self.offset_cm)
+    }
 }
 
 /// `[object.phantom]`
@@ -89,7 +105,9 @@ pub struct Phantom {
 pub struct MeshPlacement {
     /// The unit of its coordinates; default mm.
     pub unit: LengthUnit,
-    /// Added to every vertex after scaling (world frame, cm); default none.
+    /// Roll, pitch and yaw by which the mesh is turned about its own origin; default none.
+    pub rotation_deg: Vec3,
+    /// Added to every vertex after scaling and turning (world frame, cm); default none.
     pub offset_cm: Vec3,
 }
 
@@ -107,6 +125,18 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Mm, Self::Cm, Self::M];
+
+    /// Its name in files and on the command line.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Mm => "mm",
+            Self::Cm => "cm",
+            Self::M => "m",
+        }
+    }
+
     /// Centimetres in one of this unit.
     pub fn in_cm(self) -> f64 {
         match self {
@@ -114,6 +144,32 @@ impl LengthUnit {
             Self::Cm => 1.0,
             Self::M => 100.0,
         }
+    }
+}
+
+impl fmt::Display for LengthUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+/// A text that is no [`LengthUnit`].
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{given:?} is no unit of length here: give mm, cm or m")]
+pub struct UnknownUnit {
+    /// The text.
+    pub given: String,
+}
+
+impl FromStr for LengthUnit {
+    type Err = UnknownUnit;
+
+    fn from_str(given: &str) -> Result<Self, UnknownUnit> {
+        let mut all = Self::ALL.into_iter();
+        all.find(|unit| unit.as_str() == given)
+            .ok_or_else(|| UnknownUnit {
+                given: given.to_owned(),
+            })
     }
 }
 
@@ -132,15 +188,21 @@ impl Object {
             Self::Mesh(m) => {
                 let own = MeshPlacement {
                     unit: m.unit,
+                    rotation_deg: m.rotation_deg,
                     offset_cm: m.offset_cm,
                 };
                 (m.features, m.feature_seed, own)
             }
         };
-        let MeshPlacement { unit, offset_cm } = placement.cloned().unwrap_or(own);
+        let MeshPlacement {
+            unit,
+            rotation_deg,
+            offset_cm,
+        } = placement.cloned().unwrap_or(own);
         Self::Mesh(Mesh {
             file,
             unit,
+            rotation_deg,
             offset_cm,
             features,
             feature_seed,

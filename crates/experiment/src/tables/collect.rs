@@ -16,7 +16,7 @@ pub struct TablesOptions {
     pub runs: Option<usize>,
     /// Only the experiments with these labels; all where empty.
     pub only: Vec<String>,
-    /// An STL file for the object of every experiment whose object is a mesh or a phantom.
+    /// An STL, OBJ or PLY file for the object of every experiment whose object is a mesh or a phantom.
     pub mesh: Option<PathBuf>,
     /// Whether the first run of each planner is kept step by step.
     pub record: bool,
