@@ -6,7 +6,7 @@ use adslam_experiment::ExperimentError;
 use adslam_experiment::run::Interrupt;
 use adslam_experiment::scenario::{LengthUnit, PlannerName};
 use clap::builder::RangedU64ValueParser;
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 
 use crate::commands;
 
@@ -31,6 +31,13 @@ pub enum Command {
         Example:\n  adslam replay results/global results/combined --out results/replay.html"
     )]
     Replay(ReplayArgs),
+    /// Write a run in the format of another tool: MCAP for Foxglove, PLY or CSV
+    #[command(
+        after_help = "Takes a folder that adslam run wrote; docs/export.md says what is in each \
+        format.\n\n\
+        Example:\n  adslam export results/run --format mcap --out run.mcap"
+    )]
+    Export(ExportArgs),
     /// Run the estimator over a recorded log
     #[command(
         after_help = "The log is JSON lines, a header and a line a step; docs/log.md is its \
@@ -91,6 +98,34 @@ pub struct ReplayArgs {
     /// The page to write
     #[arg(long, default_value = "replay.html", value_name = "FILE")]
     pub out: PathBuf,
+}
+
+/// `adslam export`
+#[derive(Debug, Args)]
+pub struct ExportArgs {
+    /// The folder of the run
+    #[arg(value_name = "RUN_DIR")]
+    pub run: PathBuf,
+    /// What to write
+    #[arg(long)]
+    pub format: ExportFormat,
+    /// The file to write, or for PLY the folder; made if it does not exist
+    #[arg(long, value_name = "PATH")]
+    pub out: PathBuf,
+    /// Time between two steps, in seconds; only MCAP has times
+    #[arg(long, default_value_t = 0.1, value_name = "SECONDS")]
+    pub period: f64,
+}
+
+/// A format of other tools.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ExportFormat {
+    /// One file for Foxglove: frames, poses, features, surface, ellipsoids and curves
+    Mcap,
+    /// Two files a step: the surface, and the features
+    Ply,
+    /// One table: truth, estimate and sigma of every component of the state at each step
+    Csv,
 }
 
 /// `adslam filter`
@@ -158,6 +193,7 @@ impl Command {
         match self {
             Self::Run(args) => commands::run(args, interrupt),
             Self::Replay(args) => commands::replay(args),
+            Self::Export(args) => commands::export(args),
             Self::Filter(args) => commands::filter(args, interrupt),
             Self::Tables(args) => commands::tables(args, interrupt),
             Self::Mesh(args) => commands::mesh(args),

@@ -7,7 +7,9 @@ mod interrupt;
 mod print;
 mod progress;
 
-pub use args::{Command, FilterArgs, MeshArgs, ReplayArgs, RunArgs, TablesArgs};
-pub use commands::{check, filter, mesh, replay, run, tables};
+pub use args::{
+    Command, ExportArgs, ExportFormat, FilterArgs, MeshArgs, ReplayArgs, RunArgs, TablesArgs,
+};
+pub use commands::{check, export, filter, mesh, replay, run, tables};
 pub use exit::{BAD_INPUT, FAILURE, INTERRUPTED, exit_code};
 pub use interrupt::stop_on_ctrl_c;

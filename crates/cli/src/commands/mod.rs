@@ -1,6 +1,7 @@
 //! The subcommands.
 
 mod check;
+mod export;
 mod filter;
 mod mesh;
 mod replay;
@@ -8,6 +9,7 @@ mod run;
 mod tables;
 
 pub use check::check;
+pub use export::export;
 pub use filter::filter;
 pub use mesh::mesh;
 pub use replay::replay;

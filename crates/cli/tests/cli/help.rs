@@ -5,7 +5,9 @@ use super::support::{BAD_INPUT, PLANNERS, Place};
 #[test]
 fn every_command_explains_itself_with_an_example_in_80_columns() {
     let place = Place::new(&[]);
-    for command in ["run", "replay", "filter", "tables", "mesh", "check"] {
+    for command in [
+        "run", "replay", "export", "filter", "tables", "mesh", "check",
+    ] {
         let output = place
             .command(&format!("{command} --help"))
             .output()

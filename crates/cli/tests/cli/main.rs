@@ -12,6 +12,8 @@ mod bad_output;
 mod bad_scenarios;
 mod bad_tables;
 mod check;
+mod evo;
+mod export;
 mod failures;
 mod filter;
 mod help;
