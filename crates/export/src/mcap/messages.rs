@@ -1,10 +1,9 @@
 //! The messages, in the form of Foxglove's schemas. Lengths are metres here.
 
 use adslam_experiment::run::HistoryStep;
-use adslam_models::Pose;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use nalgebra::{Point3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use serde::Serialize;
 
 use crate::ellipsoid::ellipsoid;
@@ -158,7 +157,11 @@ struct Triangles {
 }
 
 /// The frame `name`, which moves with the robot, in the world.
-pub(super) fn frame(timestamp: Stamp, name: &'static str, robot: &Pose) -> FrameTransform {
+pub(super) fn frame(
+    timestamp: Stamp,
+    name: &'static str,
+    robot: &Isometry3<f64>,
+) -> FrameTransform {
     let Placed {
         position,
         orientation,
@@ -173,7 +176,7 @@ pub(super) fn frame(timestamp: Stamp, name: &'static str, robot: &Pose) -> Frame
 }
 
 /// The robot's pose.
-pub(super) fn pose(timestamp: Stamp, robot: &Pose) -> PoseInFrame {
+pub(super) fn pose(timestamp: Stamp, robot: &Isometry3<f64>) -> PoseInFrame {
     PoseInFrame {
         timestamp,
         frame_id: WORLD,
@@ -276,18 +279,15 @@ fn entity(
     }
 }
 
-fn placed(pose: &Pose) -> Placed {
+fn placed(pose: &Isometry3<f64>) -> Placed {
     Placed {
-        position: metres(&pose.position.coords),
-        orientation: quaternion(&pose.orientation.quaternion()),
+        position: metres(&pose.translation.vector),
+        orientation: quaternion(&pose.rotation),
     }
 }
 
 fn at_origin() -> Placed {
-    Placed {
-        position: metres(&Vector3::zeros()),
-        orientation: quaternion(&UnitQuaternion::identity()),
-    }
+    placed(&Isometry3::identity())
 }
 
 fn quaternion(q: &UnitQuaternion<f64>) -> Quaternion {

@@ -13,6 +13,7 @@ use adslam_experiment::output::AtomicFile;
 use adslam_experiment::run::RunHistory;
 use mcap::records::MessageHeader;
 use mcap::{McapError, WriteOptions, Writer};
+use nalgebra::Isometry3;
 use serde::Serialize;
 
 use crate::failed;
@@ -99,6 +100,10 @@ impl Log<'_> {
         };
         let at = period.at(u64::from(sequence));
         let (truth, estimate) = (step.true_pose(), step.estimate());
+        let [truth, estimate] = [truth, estimate].map(|pose| {
+            let rotation = pose.orientation.quaternion();
+            Isometry3::from_parts(pose.position.into(), rotation)
+        });
         for (name, robot) in [("robot", &truth), ("robot_estimate", &estimate)] {
             let message = frame(at, name, robot);
             self.add("/tf", Schema::FrameTransform, sequence, at, &message)?;
