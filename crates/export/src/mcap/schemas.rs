@@ -45,7 +45,7 @@ impl Schema {
                 ("point_stride", integer()),
                 (
                     "fields",
-                    list(object(
+                    list(&object(
                         "foxglove.PackedElementField",
                         vec![("name", text()), ("offset", integer()), ("type", integer())],
                     )),
@@ -56,8 +56,8 @@ impl Schema {
                 ),
             ],
             Self::SceneUpdate => vec![
-                ("deletions", list(json!({"type": "object"}))),
-                ("entities", list(entity())),
+                ("deletions", list(&json!({"type": "object"}))),
+                ("entities", list(&entity())),
             ],
             Self::Metrics => METRICS.map(|name| (name, number())).into(),
         };
@@ -82,14 +82,14 @@ const METRICS: [&str; 12] = [
 ];
 
 fn entity() -> Value {
-    let nothing = || list(json!({"type": "object"}));
+    let nothing = || list(&json!({"type": "object"}));
     let sphere = vec![("pose", placed()), ("size", xyz()), ("color", colour())];
     let triangles = vec![
         ("pose", placed()),
-        ("points", list(xyz())),
+        ("points", list(&xyz())),
         ("color", colour()),
-        ("colors", list(colour())),
-        ("indices", list(integer())),
+        ("colors", list(&colour())),
+        ("indices", list(&integer())),
     ];
     object(
         "foxglove.SceneEntity",
@@ -102,12 +102,12 @@ fn entity() -> Value {
             ("metadata", nothing()),
             ("arrows", nothing()),
             ("cubes", nothing()),
-            ("spheres", list(object("foxglove.SpherePrimitive", sphere))),
+            ("spheres", list(&object("foxglove.SpherePrimitive", sphere))),
             ("cylinders", nothing()),
             ("lines", nothing()),
             (
                 "triangles",
-                list(object("foxglove.TriangleListPrimitive", triangles)),
+                list(&object("foxglove.TriangleListPrimitive", triangles)),
             ),
             ("texts", nothing()),
             ("models", nothing()),
@@ -123,7 +123,7 @@ fn object(title: &str, fields: Vec<(&str, Value)>) -> Value {
     json!({"title": title, "type": "object", "properties": fields})
 }
 
-fn list(of: Value) -> Value {
+fn list(of: &Value) -> Value {
     json!({"type": "array", "items": of})
 }
 

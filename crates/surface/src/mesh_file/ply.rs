@@ -97,11 +97,11 @@ fn check_header(header: &Header, bytes: usize) -> Result<(), SurfaceError> {
         }
     }
     let face = find("face")?;
-    let is_list = |name: &&str| {
-        let property = face.properties.get(*name);
+    let is_list = |name: &str| {
+        let property = face.properties.get(name);
         property.is_some_and(|p| matches!(p.data_type, PropertyType::List(..)))
     };
-    if !CORNERS.iter().any(|name| is_list(&name)) {
+    if !CORNERS.iter().any(|name| is_list(name)) {
         let names = CORNERS.join(" or ");
         return Err(in_header(format!("element face has no list {names}")));
     }
