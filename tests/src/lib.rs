@@ -46,6 +46,7 @@ pub fn summaries(setup: &Setup, planner: PlannerName, runs: u64) -> Vec<RunSumma
             setup,
             planner,
             seed,
+            record: false,
         })
         .collect();
     let results = Batch::run_all(&batch, &Interrupt::new(), &|| ());

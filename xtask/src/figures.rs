@@ -33,7 +33,7 @@ pub struct FiguresArgs {
     /// Runs of each method in the box plots; 0 for no box plots
     #[arg(long, default_value_t = 5, value_name = "N")]
     runs: usize,
-    /// An STL file, in mm, to take for the heart in place of the built-in phantom
+    /// An STL, OBJ or PLY file, in mm, to take for the heart in place of the built-in phantom
     #[arg(long, value_name = "FILE")]
     mesh: Option<PathBuf>,
 }
@@ -123,6 +123,7 @@ impl FiguresArgs {
             runs: Some(self.runs),
             only: self.scenario.labels(),
             mesh: self.mesh.clone(),
+            record: false,
         };
         let plan = TablePlan::load(&paper(), &options).map_err(ExperimentError::from)?;
         eprintln!("running {} more for the box plots", plan.total_runs());

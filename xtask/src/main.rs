@@ -18,18 +18,19 @@ use figures::FiguresArgs;
 #[derive(Debug, Parser)]
 #[command(name = "cargo xtask", about = "Tasks of the adslam project")]
 enum Task {
-    /// Run every method on both environments and print Tables I–IV beside the published values
+    /// Run every method on both environments, print Tables I–IV beside the published values, and
+    /// make a report of them
     ReproduceTables {
         /// Runs of each method
         #[arg(long, default_value_t = 5, value_name = "N")]
         runs: usize,
-        /// The folder to write tables.md and tables.json to
+        /// The folder to write tables.md, tables.json and report.html to
         #[arg(long, default_value = "results", value_name = "DIR")]
         out: PathBuf,
         /// Which environment
         #[arg(long, default_value = "all")]
         scenario: Environment,
-        /// An STL file, in mm, to take for the heart in place of the built-in phantom
+        /// An STL, OBJ or PLY file, in mm, to take for the heart in place of the built-in phantom
         #[arg(long, value_name = "FILE")]
         mesh: Option<PathBuf>,
     },
@@ -56,6 +57,7 @@ fn main() -> ExitCode {
                 only: scenario.labels(),
                 mesh,
                 out,
+                html: true,
                 json: false,
             };
             exit_code(tables(&args, interrupt))

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use adslam_experiment::ExperimentError;
 use adslam_experiment::diagnostics::FileKind;
 use adslam_experiment::run::Interrupt;
-use adslam_experiment::scenario::PlannerName;
+use adslam_experiment::scenario::{LengthUnit, PlannerName};
+use clap::builder::RangedU64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
@@ -53,6 +54,13 @@ pub enum Command {
         Example:\n  adslam replay results/global results/combined --out results/replay.html"
     )]
     Replay(ReplayArgs),
+    /// Write a run in the format of another tool: MCAP for Foxglove, PLY or CSV
+    #[command(
+        after_help = "Takes a folder that adslam run wrote; docs/export.md says what is in each \
+        format.\n\n\
+        Example:\n  adslam export results/run --format mcap --out run.mcap"
+    )]
+    Export(ExportArgs),
     /// Run the estimator over a recorded log
     #[command(
         after_help = "The log is JSON lines, a header and a line a step; docs/log.md is its \
@@ -61,11 +69,18 @@ pub enum Command {
     )]
     Filter(FilterArgs),
     /// Run everything that a configuration asks for and tabulate it
-    #[command(
-        after_help = "Writes tables.md and tables.json into the folder given with --out.\n\n\
-        Example:\n  adslam tables configs/accumulating.toml --runs 20 --out results/accumulating"
-    )]
+    #[command(after_help = "Writes into the folder given with --out:\n  \
+        tables.md, tables.json   the tables, and every run\n  \
+        report.html, replays/    a page with figures and replays to open in a browser, with \
+        --html\n\n\
+        Example:\n  adslam tables configs/accumulating.toml --runs 20 --out results/accumulating")]
     Tables(TablesArgs),
+    /// Say what a mesh file holds and whether it will serve as an object
+    #[command(
+        after_help = "Reads STL, OBJ and PLY. Exit code 2 where the mesh will not serve, with what \
+        to do about it.\n\nExample:\n  adslam mesh heart.stl --unit mm"
+    )]
+    Mesh(MeshArgs),
     /// Say whether scenarios and configurations are valid, and what is wrong with them
     #[command(after_help = "Example:\n  adslam check scenarios/*.toml configs/*.toml")]
     Check(CheckArgs),
@@ -175,7 +190,7 @@ pub struct RunArgs {
     /// The folder to write to; made if it does not exist
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// An STL file to take for the object in place of the scenario's
+    /// An STL, OBJ or PLY file to take for the object in place of the scenario's
     #[arg(long, value_name = "FILE")]
     pub mesh: Option<PathBuf>,
     /// Write replay.html too, a page to open in a browser
@@ -198,6 +213,37 @@ pub struct ReplayArgs {
     /// Answer with one JSON object
     #[arg(long)]
     pub json: bool,
+}
+
+/// `adslam export`
+#[derive(Debug, Args)]
+pub struct ExportArgs {
+    /// The folder of the run
+    #[arg(value_name = "RUN_DIR")]
+    pub run: PathBuf,
+    /// What to write
+    #[arg(long)]
+    pub format: ExportFormat,
+    /// The file to write, or for PLY the folder; made if it does not exist
+    #[arg(long, value_name = "PATH")]
+    pub out: PathBuf,
+    /// Time between two steps, in seconds; only MCAP has times
+    #[arg(long, default_value_t = 0.1, value_name = "SECONDS")]
+    pub period: f64,
+    /// Answer with one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A format of other tools.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ExportFormat {
+    /// One file for Foxglove: frames, poses, features, surface, ellipsoids and curves
+    Mcap,
+    /// Two files a step: the surface, and the features
+    Ply,
+    /// One table: truth, estimate and sigma of every component of the state at each step
+    Csv,
 }
 
 /// `adslam filter`
@@ -227,12 +273,36 @@ pub struct TablesArgs {
     /// Only this experiment of the configuration; may be given again
     #[arg(long, value_name = "LABEL")]
     pub only: Vec<String>,
-    /// An STL file to take for the object of every experiment with a mesh or a phantom
+    /// An STL, OBJ or PLY file to take for the object of every experiment with a mesh or a phantom
     #[arg(long, value_name = "FILE")]
     pub mesh: Option<PathBuf>,
     /// The folder to write to; made if it does not exist
     #[arg(long, default_value = "results", value_name = "DIR")]
     pub out: PathBuf,
+    /// Write report.html too, a page with figures to open in a browser, and replays beside it
+    #[arg(long)]
+    pub html: bool,
+    /// Answer with one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `adslam mesh`
+#[derive(Debug, Args)]
+pub struct MeshArgs {
+    /// The mesh file
+    pub file: PathBuf,
+    /// The unit of its coordinates: mm, cm or m
+    #[arg(long, default_value = "mm", value_name = "UNIT")]
+    pub unit: LengthUnit,
+    /// Features that a scenario would pick from it
+    #[arg(
+        long,
+        default_value_t = 50,
+        value_name = "N",
+        value_parser = RangedU64ValueParser::<usize>::new().range(4..=2000)
+    )]
+    pub features: usize,
     /// Answer with one JSON object
     #[arg(long)]
     pub json: bool,
@@ -247,8 +317,10 @@ impl Command {
         match self {
             Self::Run(args) => commands::run(args, interrupt),
             Self::Replay(args) => commands::replay(args),
+            Self::Export(args) => commands::export(args),
             Self::Filter(args) => commands::filter(args, interrupt),
             Self::Tables(args) => commands::tables(args, interrupt),
+            Self::Mesh(args) => commands::mesh(args),
             Self::Check(args) => commands::check(args),
             Self::New(file) => commands::new(file),
             Self::Schema { kind } => {

@@ -11,9 +11,11 @@ mod print;
 mod progress;
 
 pub use args::{
-    Arguments, CheckArgs, Command, FilterArgs, NewArgs, NewFile, ReplayArgs, RunArgs, SchemaKind,
-    TablesArgs,
+    Arguments, CheckArgs, Command, ExportArgs, ExportFormat, FilterArgs, MeshArgs, NewArgs,
+    NewFile, ReplayArgs, RunArgs, SchemaKind, TablesArgs,
 };
-pub use commands::{check, completions, filter, new, replay, run, schema, schema_text, tables};
+pub use commands::{
+    check, completions, export, filter, mesh, new, replay, run, schema, schema_text, tables,
+};
 pub use exit::{BAD_INPUT, FAILURE, INTERRUPTED, exit_code};
 pub use interrupt::stop_on_ctrl_c;

@@ -5,6 +5,7 @@ pub mod config;
 pub mod diagnostics;
 mod error;
 pub mod log;
+mod mesh_report;
 pub mod metrics;
 pub mod output;
 pub mod run;
@@ -14,3 +15,4 @@ pub mod tables;
 pub mod world;
 
 pub use error::ExperimentError;
+pub use mesh_report::MeshReport;

@@ -22,6 +22,7 @@ const PNG_SCALE: f32 = 3.125;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     name: String,
+    title: String,
     width: f64,
     height: f64,
     svg: String,
@@ -63,6 +64,7 @@ impl Frame<'_> {
         );
         Ok(Figure {
             name: self.name.to_owned(),
+            title: self.title.to_owned(),
             width,
             height,
             svg,
@@ -75,6 +77,12 @@ impl Figure {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// What it shows, in a sentence.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.title
     }
 
     /// The figure as an SVG file, its font embedded.

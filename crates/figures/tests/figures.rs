@@ -36,6 +36,7 @@ fn tables(runs: usize) -> ExperimentTables {
         runs: Some(runs),
         only: vec!["polygon".to_owned()],
         mesh: None,
+        record: false,
     };
     let mut config = config;
     for plan in &mut config.experiments {

@@ -28,20 +28,7 @@ pub(crate) fn pair_edges(
     faces: &[[usize; 3]],
 ) -> Result<Vec<Edge>, SurfaceError> {
     check_corners(points.len(), faces)?;
-    let mut sides: Vec<([usize; 2], Side)> = Vec::with_capacity(3 * faces.len());
-    for (face, &[a, b, c]) in faces.iter().enumerate() {
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            sides.push((
-                [from.min(to), from.max(to)],
-                Side {
-                    face,
-                    upward: from < to,
-                },
-            ));
-        }
-    }
-    sides.sort_unstable_by_key(|(ends, side)| (*ends, side.face));
-
+    let sides = edges_of(faces);
     let mut edges = Vec::with_capacity(sides.len() / 2);
     let mut open: Option<([usize; 2], usize)> = None;
     let mut open_count = 0;
@@ -69,6 +56,24 @@ pub(crate) fn pair_edges(
             })
         }
     }
+}
+
+/// The sides of all faces by the edge that they lie along, in the order of the edges' points.
+pub(crate) fn edges_of(faces: &[[usize; 3]]) -> Vec<([usize; 2], Side)> {
+    let mut sides: Vec<([usize; 2], Side)> = Vec::with_capacity(3 * faces.len());
+    for (face, &[a, b, c]) in faces.iter().enumerate() {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            sides.push((
+                [from.min(to), from.max(to)],
+                Side {
+                    face,
+                    upward: from < to,
+                },
+            ));
+        }
+    }
+    sides.sort_unstable_by_key(|(ends, side)| (*ends, side.face));
+    sides
 }
 
 fn check_corners(count: usize, faces: &[[usize; 3]]) -> Result<(), SurfaceError> {

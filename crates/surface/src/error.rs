@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::MAX_COORDINATE_CM;
+use crate::{MAX_COORDINATE_CM, MeshFormat};
 
 /// What can be wrong with points, faces, mesh files and requests. Points and faces are numbered
 /// from 0 and coordinates are in the unit of the input (cm unless a file says otherwise).
@@ -120,7 +120,7 @@ pub enum SurfaceError {
         cause: std::io::Error,
     },
     /// A directory or device where a file should be.
-    #[error("this is not a regular file: give the path of an STL file")]
+    #[error("this is not a regular file: give the path of an STL, OBJ or PLY file")]
     NotAFile,
     /// More bytes than [`MAX_MESH_BYTES`](crate::MAX_MESH_BYTES).
     #[error("the file has {bytes} bytes, more than the limit of {limit}: simplify the mesh")]
@@ -139,7 +139,7 @@ pub enum SurfaceError {
         limit: u64,
     },
     /// A file of no bytes or no triangles.
-    #[error("the STL file holds no triangles: export the mesh again")]
+    #[error("the file holds no triangles: export the mesh again")]
     EmptyMesh,
     /// A binary STL file whose size does not fit its header.
     #[error(
@@ -154,13 +154,32 @@ pub enum SurfaceError {
         /// Bytes that there are.
         given: u64,
     },
-    /// Bytes that are not STL.
-    #[error("this is not STL, near triangle {triangle}: {reason}; export the mesh again")]
-    NotStl {
-        /// How many triangles were read before.
-        triangle: usize,
-        /// What the reader said.
+    /// Bytes that are not of the format they should be.
+    #[error("this is not {format}, {place}: {reason}; export the mesh again")]
+    Malformed {
+        /// What it should be.
+        format: MeshFormat,
+        /// Where the reader stopped, such as a line or a triangle.
+        place: String,
+        /// What is wrong there.
         reason: String,
+    },
+    /// A file whose name says one format and whose content another.
+    #[error(
+        "the name says {named}, and the content is {found}; let the name end in .{}",
+        found.extension()
+    )]
+    OtherFormat {
+        /// What the name says.
+        named: MeshFormat,
+        /// What the content is.
+        found: MeshFormat,
+    },
+    /// A file whose name says no format that is read.
+    #[error("{}", unknown_format(*found))]
+    UnknownFormat {
+        /// What the content looks like.
+        found: Option<MeshFormat>,
     },
     /// An error in a file, with the path.
     #[error("mesh file {}: {cause}", path.display())]
@@ -206,5 +225,18 @@ pub enum SurfaceError {
 impl From<std::io::Error> for SurfaceError {
     fn from(cause: std::io::Error) -> Self {
         Self::Unreadable { cause }
+    }
+}
+
+fn unknown_format(found: Option<MeshFormat>) -> String {
+    match found {
+        Some(found) => format!(
+            "the name does not say what format it is of, and the content looks like {found}; let \
+             the name end in .{}",
+            found.extension()
+        ),
+        None => "the name ends in none of .stl, .obj and .ply; export the mesh in one of these \
+                 formats"
+            .to_owned(),
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! A [`Topology`] says which points are joined by which triangles; a [`Surface`] is a topology
 //! placed in the world at one moment, and answers how far a position is from it and what can be
-//! seen past it. A [`Mesh`] is a surface at rest: read from an STL file, or the built-in
+//! seen past it. A [`Mesh`] is a surface at rest: read from an STL, OBJ or PLY
+//! file, or the built-in
 //! [`heart_phantom`]; [`pick_features`] chooses the points of it that a robot will observe.
 //!
 //! Lengths are centimetres and positions are in the world frame throughout. Decisions (which side,
@@ -18,11 +19,12 @@ mod error;
 mod fan;
 mod features;
 mod hull;
+mod inspection;
 mod mesh;
+mod mesh_file;
 mod phantom;
 mod predicates;
 mod spatial;
-mod stl;
 mod surface;
 mod topology;
 mod winding;
@@ -31,11 +33,12 @@ pub use clearance::Clearance;
 pub use error::SurfaceError;
 pub use fan::Fan;
 pub use features::pick_features;
+pub use inspection::Inspection;
 pub use mesh::Mesh;
+pub use mesh_file::{MAX_MESH_BYTES, MAX_MESH_FACES, MeshFile, MeshFormat};
 pub use phantom::{
     DEFAULT_PHANTOM_SPACING_CM, MAX_PHANTOM_SPACING_CM, MIN_PHANTOM_SPACING_CM, heart_phantom,
 };
-pub use stl::{MAX_MESH_BYTES, MAX_MESH_FACES};
 pub use surface::Surface;
 pub use topology::Topology;
 

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Rotation3, Vector3};
 
 use crate::edges::pair_edges;
 use crate::topology::signed_volume;
-use crate::{SurfaceError, check_points, stl};
+use crate::{MeshFile, MeshFormat, SurfaceError, check_points};
 
 /// Triangles over shared vertices. Coordinates are in the unit of the file until
-/// [`Mesh::scaled_and_moved`] brings them to cm in the world frame.
+/// [`Mesh::rotated`] and [`Mesh::scaled_and_moved`] bring them to cm in the world frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// The positions.
@@ -19,28 +19,28 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Reads an STL file, binary or ASCII, in its own unit. Vertices that are equal bit by bit are
-    /// merged, and triangles that this leaves without a third corner are dropped.
+    /// Reads an STL, OBJ or PLY file, in its own unit, as [`MeshFile::read`] does.
     ///
     /// # Errors
-    /// [`SurfaceError::InFile`] with the path and the reason: unreadable, not a file, larger than
-    /// [`MAX_MESH_BYTES`](crate::MAX_MESH_BYTES) or [`MAX_MESH_FACES`](crate::MAX_MESH_FACES)
-    /// (found before memory is taken), and all of [`Mesh::parse_stl`].
-    pub fn read_stl(path: &Path) -> Result<Self, SurfaceError> {
-        stl::read_bytes(path)
-            .and_then(|bytes| Self::parse_stl(&bytes))
-            .map_err(|cause| SurfaceError::InFile {
+    /// [`SurfaceError::InFile`] with the path and the reason: all of [`MeshFile::read`], and
+    /// unusable coordinates and surfaces that are not closed.
+    pub fn read(path: &Path) -> Result<Self, SurfaceError> {
+        let MeshFile { mesh, .. } = MeshFile::read(path)?;
+        match mesh.check_closed() {
+            Ok(()) => Ok(mesh),
+            Err(cause) => Err(SurfaceError::InFile {
                 path: path.into(),
                 cause: Box::new(cause),
-            })
+            }),
+        }
     }
 
-    /// As [`Mesh::read_stl`], from the bytes of a file.
+    /// As [`Mesh::read`], from the bytes of a file.
     ///
     /// # Errors
-    /// Not STL, no triangles, too many, cut short, unusable coordinates, not closed.
-    pub fn parse_stl(bytes: &[u8]) -> Result<Self, SurfaceError> {
-        let mesh = stl::parse(bytes)?;
+    /// All of [`MeshFile::parse`], unusable coordinates, not closed.
+    pub fn parse(format: MeshFormat, bytes: &[u8]) -> Result<Self, SurfaceError> {
+        let MeshFile { mesh, .. } = MeshFile::parse(format, bytes)?;
         mesh.check_closed()?;
         Ok(mesh)
     }
@@ -54,6 +54,15 @@ impl Mesh {
         }
         if scale < 0.0 {
             self.faces.iter_mut().for_each(|face| face.swap(1, 2));
+        }
+        self
+    }
+
+    /// Every vertex turned about the origin.
+    #[must_use]
+    pub fn rotated(mut self, rotation: &Rotation3<f64>) -> Self {
+        for vertex in &mut self.vertices {
+            *vertex = rotation * *vertex;
         }
         self
     }

@@ -2,7 +2,9 @@
 
 mod check;
 mod completions;
+mod export;
 mod filter;
+mod mesh;
 mod new;
 mod replay;
 mod run;
@@ -11,7 +13,9 @@ mod tables;
 
 pub use check::check;
 pub use completions::completions;
+pub use export::export;
 pub use filter::filter;
+pub use mesh::mesh;
 pub use new::new;
 pub use replay::replay;
 pub use run::run;

@@ -6,10 +6,12 @@ use adslam_experiment::run::Interrupt;
 use adslam_experiment::tables::{TablePlan, TablesOptions, markdown, terminal, write_json};
 
 use crate::answer::Answer;
+use crate::paths::shown;
 use crate::print::tell;
 use crate::{TablesArgs, progress};
 
-/// Runs a configuration, prints its tables, and writes tables.md and tables.json.
+/// Runs a configuration, prints its tables, and writes tables.md and tables.json, and report.html
+/// where it is asked for.
 ///
 /// Interrupted, it still tabulates and writes the runs that have finished.
 ///
@@ -28,6 +30,7 @@ fn run_all(
         runs: args.runs,
         only: args.only.clone(),
         mesh: args.mesh.clone(),
+        record: args.html,
     };
     let plan = TablePlan::load(&args.config, &options)?;
     prepare_folder(&args.out)?;
@@ -50,6 +53,14 @@ fn run_all(
         md.display(),
         json.display()
     ));
+    if args.html {
+        let page = adslam_report::write(&tables, &args.out)?;
+        answer.set("report", shown(&page));
+        answer.say(format_args!(
+            "wrote {}; open it in a browser, no network needed",
+            page.display()
+        ));
+    }
     if tables.interrupted && !tables.failures.is_empty() {
         // The interruption is what the command ends with, and tells nothing of these.
         let failures = tables.failures.clone();

@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use super::support::{Place, heart};
 
 /// A tetrahedron of 40 mm, or with three faces one that is open, as ASCII STL.
-fn tetrahedron(faces: usize) -> String {
+pub fn tetrahedron(faces: usize) -> String {
     let corners = [[0, 0, 0], [40, 0, 0], [0, 40, 0], [0, 0, 40]];
     let mut text = "solid t\n".to_owned();
     for face in [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
@@ -73,7 +73,10 @@ fn no_file() {
     fs::create_dir(place.path("mesh.stl")).unwrap();
     refused(
         &place,
-        &["this is not a regular file", "give the path of an STL file"],
+        &[
+            "this is not a regular file",
+            "give the path of an STL, OBJ or PLY file",
+        ],
     );
 }
 
@@ -84,7 +87,7 @@ fn empty() {
         fs::write(place.path("mesh.stl"), content).unwrap();
         refused(
             &place,
-            &["the STL file holds no triangles", "export the mesh again"],
+            &["the file holds no triangles", "export the mesh again"],
         );
     }
 }

@@ -12,12 +12,15 @@ mod bad_output;
 mod bad_scenarios;
 mod bad_tables;
 mod check;
+mod evo;
+mod export;
 mod failures;
 mod filter;
 mod help;
 #[cfg(unix)]
 mod interrupt;
 mod json;
+mod mesh;
 mod new;
 mod replay;
 mod run;

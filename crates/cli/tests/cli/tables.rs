@@ -69,6 +69,38 @@ fn tables_and_every_run() {
 }
 
 #[test]
+fn a_report_with_replays_where_asked_for() {
+    let place = Place::new(&[
+        ("polygon.toml", &polygon(&[])),
+        ("config.toml", &config(1, &["predetermined", "global"])),
+    ]);
+    let said = place.succeeds("tables config.toml --out plain");
+    assert!(!said.out.contains("report.html"), "{said:?}");
+    assert!(
+        !place.path("plain/report.html").exists(),
+        "only if asked for"
+    );
+
+    let said = place.succeeds("tables config.toml --out full --html");
+    assert!(said.out.contains("report.html"), "{said:?}");
+    let page = place.read("full/report.html");
+    for planner in ["predetermined", "global"] {
+        let replay = format!("replays/polygon-{planner}.html");
+        assert!(page.contains(&format!("href=\"{replay}\"")), "{replay}");
+        assert!(place.path("full").join(&replay).exists(), "{replay}");
+    }
+    let times = |markdown: String| -> Vec<String> {
+        let lines = markdown.lines().filter(|line| !line.contains("time"));
+        lines.map(str::to_owned).collect()
+    };
+    assert_eq!(
+        times(place.read("plain/tables.md")),
+        times(place.read("full/tables.md")),
+        "recording changes nothing"
+    );
+}
+
+#[test]
 fn runs_and_experiments_can_be_chosen() {
     let two = config(9, &["predetermined"])
         + "\n[[experiments]]\nlabel = \"other\"\nscenario = \"polygon.toml\"\nplanners = [\"local\"]\n";

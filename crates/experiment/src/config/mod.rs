@@ -30,6 +30,8 @@ type Runs = Count<1, { MOST_RUNS as u64 }>;
 pub struct Config {
     /// The file it came from.
     pub path: PathBuf,
+    /// What the file says.
+    pub text: String,
     /// What it shows, for the head of its tables.
     pub title: String,
     /// Runs of each planner in each experiment.
@@ -124,6 +126,7 @@ impl Config {
         }
         Ok(Self {
             path: document.path().to_owned(),
+            text: document.text().to_owned(),
             title: file.title,
             runs: file.runs.get(),
             first_seed: file.first_seed.as_u64(),

@@ -103,6 +103,11 @@ impl Document {
         &self.base.path
     }
 
+    /// The text of that file.
+    pub(crate) fn text(&self) -> &str {
+        &self.base.text
+    }
+
     /// This document with the overrides in `table` (such as `experiments[0].set`) of `other`.
     pub(crate) fn with_overrides(&self, other: &Self, table: &str) -> Self {
         let overlay = Overlay {

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use super::{NoObserver, RunOutcome, Setup, simulate};
+use super::{HistoryRecorder, NoObserver, RunOutcome, Setup, simulate};
 use crate::ExperimentError;
 use crate::scenario::PlannerName;
 
@@ -40,6 +40,8 @@ pub struct Batch<'a> {
     pub planner: PlannerName,
     /// With which noise.
     pub seed: u64,
+    /// Whether its history is kept: a few megabytes for each run.
+    pub record: bool,
 }
 
 /// What became of it.
@@ -64,10 +66,34 @@ impl Batch<'_> {
                 if interrupt.requested() {
                     return Err(ExperimentError::Interrupted);
                 }
-                let result = simulate(run.setup, run.planner, run.seed, interrupt, &mut NoObserver);
+                let result = run.run(interrupt);
                 progress();
                 result
             })
             .collect()
+    }
+
+    fn run(&self, interrupt: &Interrupt) -> BatchResult {
+        if !self.record {
+            return simulate(
+                self.setup,
+                self.planner,
+                self.seed,
+                interrupt,
+                &mut NoObserver,
+            );
+        }
+        let mut recorder = HistoryRecorder::new(self.setup, self.planner, self.seed);
+        let outcome = simulate(
+            self.setup,
+            self.planner,
+            self.seed,
+            interrupt,
+            &mut recorder,
+        )?;
+        Ok(RunOutcome {
+            history: Some(recorder.into_history()),
+            ..outcome
+        })
     }
 }

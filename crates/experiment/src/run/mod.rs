@@ -15,5 +15,6 @@ pub use history::{
 };
 pub use planners::build_planner;
 pub use record::RunRecorder;
+pub(crate) use rest_object::parted;
 pub use setup::Setup;
 pub use simulate::{NoObserver, Observer, RunOutcome, StepView, simulate};

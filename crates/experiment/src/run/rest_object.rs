@@ -43,9 +43,8 @@ impl RestObject {
             }
             Object::Mesh(mesh) => {
                 refuse_missing(scenario, mesh)?;
-                let read = Mesh::read_stl(&mesh.file).map_err(blame("object.mesh.file"))?;
-                let placed = read.scaled_and_moved(mesh.unit.in_cm(), *mesh.offset_cm);
-                Self::picked(placed, mesh.features, mesh.feature_seed)
+                let read = Mesh::read(&mesh.file).map_err(blame("object.mesh.file"))?;
+                Self::picked(mesh.placed(read), mesh.features, mesh.feature_seed)
                     .map_err(blame("object.mesh.features"))
             }
             Object::Phantom(phantom) => {
@@ -80,7 +79,7 @@ fn refuse_missing(scenario: &Scenario, mesh: &scenario::Mesh) -> Result<(), Inpu
     let message = format!("there is no file {}", mesh.file.display());
     Err(if scenario.mesh_is_given {
         InputError::about_file(&mesh.file, message)
-            .with_help("--mesh takes the path of an STL file, from the current folder")
+            .with_help("--mesh takes the path of an STL, OBJ or PLY file, from the current folder")
     } else {
         scenario
             .error_at("object.mesh.file", message)
@@ -90,14 +89,10 @@ fn refuse_missing(scenario: &Scenario, mesh: &scenario::Mesh) -> Result<(), Inpu
 
 /// An error of the surface as one of the input: at `key` of the scenario, or about the mesh file
 /// that was given beside it.
-///
-/// The messages of surfaces end with the remedy, after a semicolon or else a colon.
 pub(super) fn blamed(scenario: &Scenario, key: &str, error: &SurfaceError) -> InputError {
     let text = error.to_string();
-    let (message, remedy) = text
-        .rsplit_once("; ")
-        .or_else(|| text.rsplit_once(": "))
-        .unwrap_or((&text, "docs/scenario.md says what an object needs"));
+    let (message, remedy) = parted(&text);
+    let remedy = remedy.unwrap_or("docs/scenario.md says what an object needs");
     let error = match &scenario.object {
         Object::Mesh(mesh) if scenario.mesh_is_given => {
             let file = mesh.file.display().to_string();
@@ -111,6 +106,13 @@ pub(super) fn blamed(scenario: &Scenario, key: &str, error: &SurfaceError) -> In
         _ => scenario.error_at(key, message),
     };
     error.with_help(remedy)
+}
+
+/// The message of a surface's error without the remedy that ends it, after a semicolon or else a
+/// colon, and that remedy.
+pub(crate) fn parted(text: &str) -> (&str, Option<&str>) {
+    let parted = text.rsplit_once("; ").or_else(|| text.rsplit_once(": "));
+    parted.map_or((text, None), |(message, remedy)| (message, Some(remedy)))
 }
 
 #[cfg(test)]

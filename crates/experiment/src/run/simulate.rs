@@ -10,7 +10,7 @@ use adslam_planning::{Decision, Planner, PlanningError, Score, Situation, featur
 use adslam_surface::Surface;
 use nalgebra::{Matrix6, Point3, Vector3};
 
-use super::{Interrupt, Setup, build_planner};
+use super::{Interrupt, RunHistory, Setup, build_planner};
 use crate::ExperimentError;
 use crate::metrics::{RunSummary, StepMetrics, SummaryBuilder, measure_step};
 use crate::scenario::PlannerName;
@@ -67,6 +67,8 @@ pub struct RunOutcome {
     pub summary: RunSummary,
     /// What its user should know, such as features that no viewpoint sees.
     pub warnings: Vec<String>,
+    /// Every step of it, where a [`Batch`](super::Batch) was to record it.
+    pub history: Option<RunHistory>,
 }
 
 /// Runs one planner at one seed.
@@ -94,6 +96,7 @@ pub fn simulate(
     Ok(RunOutcome {
         summary: run.builder.finish(seed),
         warnings,
+        history: None,
     })
 }
 

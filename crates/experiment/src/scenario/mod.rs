@@ -27,7 +27,7 @@ pub use motion::{
     Rotation, Swing, Translation,
 };
 pub use noise::{DeformationNoise, Filter, FilterNoise, Noise, Structure};
-pub use object::{LengthUnit, Mesh, MeshPlacement, Object, Phantom, Points};
+pub use object::{LengthUnit, Mesh, MeshPlacement, Object, Phantom, Points, UnknownUnit};
 pub use planners::{
     Combined, Global, Local, Nearest, PlannerName, Planners, Predetermined, UnknownPlanner,
 };
@@ -129,6 +129,11 @@ impl Scenario {
     /// The file this scenario came from.
     pub fn path(&self) -> &Path {
         self.document.path()
+    }
+
+    /// What that file says; overrides are not in it.
+    pub fn text(&self) -> &str {
+        self.document.text()
     }
 
     /// The scenario as text, overrides apart.

@@ -1,10 +1,14 @@
 //! `[object]`: what is mapped, and `[mesh_placement]`.
 
+use std::fmt;
 use std::path::PathBuf;
+use std::str::FromStr;
 
+use adslam_models::EulerAngles;
 use adslam_surface::DEFAULT_PHANTOM_SPACING_CM;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 use super::values::{FeatureCount, FeatureNumber, List, Seed, Spacing, Triple, Vec3};
 
@@ -53,14 +57,17 @@ pub struct Points {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
-    /// An STL file of a closed surface; its path counts from the scenario's folder.
+    /// An STL, OBJ or PLY file of a closed surface; its path counts from the scenario's folder.
     // Once the scenario is read, the folder is part of it.
     #[schemars(extend("format" = "path"))]
     pub file: PathBuf,
     /// Unit of the file's coordinates.
     #[serde(default)]
     pub unit: LengthUnit,
-    /// Added to every vertex, after scaling (world frame, cm).
+    /// Roll, pitch and yaw by which the mesh is turned about its own origin (deg).
+    #[serde(default)]
+    pub rotation_deg: Vec3,
+    /// Added to every vertex, after scaling and turning (world frame, cm).
     #[serde(default)]
     pub offset_cm: Vec3,
     /// Features to pick from the vertices on the convex hull.
@@ -69,6 +76,15 @@ pub struct Mesh {
     /// Seed of that picking.
     #[serde(default = "feature_seed")]
     pub feature_seed: Seed,
+}
+
+impl Mesh {
+    /// `mesh`, read from the file, where it belongs in the world (cm).
+    pub fn placed(&self, mesh: adslam_surface::Mesh) -> adslam_surface::Mesh {
+        let turn = EulerAngles::from_vector(&self.rotation_deg.map(f64::to_radians));
+        mesh.rotated(&turn.rotation())
+            .scaled_and_moved(self.unit.in_cm(), *self.offset_cm)
+    }
 }
 
 /// The heart that the code generates, from whose vertices features are picked.
@@ -92,7 +108,9 @@ pub struct Phantom {
 pub struct MeshPlacement {
     /// Unit of the file's coordinates.
     pub unit: LengthUnit,
-    /// Added to every vertex, after scaling (world frame, cm).
+    /// Roll, pitch and yaw by which the mesh is turned about its own origin (deg).
+    pub rotation_deg: Vec3,
+    /// Added to every vertex, after scaling and turning (world frame, cm).
     pub offset_cm: Vec3,
 }
 
@@ -110,6 +128,18 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Mm, Self::Cm, Self::M];
+
+    /// Its name in files and on the command line.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Mm => "mm",
+            Self::Cm => "cm",
+            Self::M => "m",
+        }
+    }
+
     /// Centimetres in one of this unit.
     pub fn in_cm(self) -> f64 {
         match self {
@@ -117,6 +147,32 @@ impl LengthUnit {
             Self::Cm => 1.0,
             Self::M => 100.0,
         }
+    }
+}
+
+impl fmt::Display for LengthUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+/// A text that is no [`LengthUnit`].
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{given:?} is no unit of length here: give mm, cm or m")]
+pub struct UnknownUnit {
+    /// The text.
+    pub given: String,
+}
+
+impl FromStr for LengthUnit {
+    type Err = UnknownUnit;
+
+    fn from_str(given: &str) -> Result<Self, UnknownUnit> {
+        let mut all = Self::ALL.into_iter();
+        all.find(|unit| unit.as_str() == given)
+            .ok_or_else(|| UnknownUnit {
+                given: given.to_owned(),
+            })
     }
 }
 
@@ -135,15 +191,21 @@ impl Object {
             Self::Mesh(m) => {
                 let own = MeshPlacement {
                     unit: m.unit,
+                    rotation_deg: m.rotation_deg,
                     offset_cm: m.offset_cm,
                 };
                 (m.features, m.feature_seed, own)
             }
         };
-        let MeshPlacement { unit, offset_cm } = placement.cloned().unwrap_or(own);
+        let MeshPlacement {
+            unit,
+            rotation_deg,
+            offset_cm,
+        } = placement.cloned().unwrap_or(own);
         Self::Mesh(Mesh {
             file,
             unit,
+            rotation_deg,
             offset_cm,
             features,
             feature_seed,

@@ -6,7 +6,7 @@ use crate::ExperimentError;
 use crate::config::{Config, ExperimentPlan, MOST_RUNS, PublishedScenario};
 use crate::diagnostics::{InputError, nearest};
 use crate::metrics::RunSummary;
-use crate::run::{Batch, Interrupt, Setup};
+use crate::run::{Batch, BatchResult, Interrupt, RunHistory, RunOutcome, Setup};
 use crate::scenario::{Object, PlannerName};
 
 /// What of a configuration is run, and how often.
@@ -16,8 +16,10 @@ pub struct TablesOptions {
     pub runs: Option<usize>,
     /// Only the experiments with these labels; all where empty.
     pub only: Vec<String>,
-    /// An STL file for the object of every experiment whose object is a mesh or a phantom.
+    /// An STL, OBJ or PLY file for the object of every experiment whose object is a mesh or a phantom.
     pub mesh: Option<PathBuf>,
+    /// Whether the first run of each planner is kept step by step.
+    pub record: bool,
 }
 
 /// A configuration made ready to run: all files read, all surfaces built.
@@ -26,6 +28,9 @@ pub struct TablePlan {
     title: String,
     runs: usize,
     first_seed: u64,
+    record: bool,
+    sources: Vec<SourceFile>,
+    mesh: Option<PathBuf>,
     experiments: Vec<(ExperimentPlan, Setup)>,
 }
 
@@ -39,14 +44,29 @@ pub struct Tables {
     pub title: String,
     /// Runs of each planner that were asked for.
     pub runs: usize,
+    /// The seed of the first of them; the others count up from it.
+    pub first_seed: u64,
     /// The experiments, in the configuration's order.
     pub experiments: Vec<ExperimentTables>,
+    /// The configuration and then its scenarios, each once.
+    pub sources: Vec<SourceFile>,
+    /// The mesh that took the place of the scenarios' own, as [`TablesOptions::mesh`] says.
+    pub mesh: Option<PathBuf>,
     /// Runs that failed, and why.
     pub failures: Vec<String>,
     /// Whether the user stopped it before all runs were done.
     pub interrupted: bool,
     /// What the user should know.
     pub warnings: Vec<String>,
+}
+
+/// A file that results were made from, as it was read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SourceFile {
+    /// Where it lies.
+    pub path: PathBuf,
+    /// What it says.
+    pub text: String,
 }
 
 /// The results of one experiment.
@@ -60,6 +80,9 @@ pub struct ExperimentTables {
     pub planners: Vec<PlannerRuns>,
     /// The published values.
     pub published: Option<PublishedScenario>,
+    /// The first run of each planner, where [`TablesOptions::record`] asked for it and it ended
+    /// well; in the order of the planners.
+    pub histories: Vec<RunHistory>,
 }
 
 /// The finished runs of one planner, by seed.
@@ -87,6 +110,7 @@ impl TablePlan {
     pub fn new(config: Config, options: &TablesOptions) -> Result<Self, InputError> {
         let Config {
             path,
+            text,
             title,
             runs,
             first_seed,
@@ -116,8 +140,19 @@ impl TablePlan {
         let wanted = experiments
             .into_iter()
             .filter(|plan| options.only.is_empty() || options.only.contains(&plan.label));
+        let mut sources = vec![SourceFile {
+            path: path.clone(),
+            text,
+        }];
         let mut ready = Vec::new();
         for mut plan in wanted {
+            let (path, text) = (plan.scenario.path(), plan.scenario.text());
+            if sources.iter().all(|known| known.path != path) {
+                sources.push(SourceFile {
+                    path: path.to_owned(),
+                    text: text.to_owned(),
+                });
+            }
             if let (Some(file), Object::Mesh(_) | Object::Phantom(_)) =
                 (&options.mesh, &plan.scenario.object)
             {
@@ -130,6 +165,9 @@ impl TablePlan {
             title,
             runs,
             first_seed,
+            record: options.record,
+            sources,
+            mesh: options.mesh.clone(),
             experiments: ready,
         })
     }
@@ -155,6 +193,7 @@ impl TablePlan {
                         setup,
                         planner,
                         seed,
+                        record: self.record && k == 0,
                     });
                 }
             }
@@ -163,22 +202,27 @@ impl TablePlan {
         let mut tables = Tables {
             title: self.title.clone(),
             runs: self.runs,
+            first_seed: self.first_seed,
             experiments: Vec::new(),
+            sources: self.sources.clone(),
+            mesh: self.mesh.clone(),
             failures: Vec::new(),
             interrupted: false,
             warnings: Vec::new(),
         };
         for (plan, setup) in &self.experiments {
             tables.warn(setup.warnings.iter().cloned());
+            let mut histories = Vec::new();
             let planners = plan.planners.iter().map(|&planner| {
-                let runs = results
-                    .by_ref()
-                    .take(self.runs)
-                    .filter_map(|result| tables.sort_in(&plan.label, result));
-                PlannerRuns {
-                    planner,
-                    runs: runs.collect(),
+                let mut runs = Vec::with_capacity(self.runs);
+                for result in results.by_ref().take(self.runs) {
+                    let Some(outcome) = tables.sort_in(&plan.label, result) else {
+                        continue;
+                    };
+                    runs.push(outcome.summary);
+                    histories.extend(outcome.history);
                 }
+                PlannerRuns { planner, runs }
             });
             let planners = planners.collect();
             tables.experiments.push(ExperimentTables {
@@ -186,6 +230,7 @@ impl TablePlan {
                 steps: setup.steps,
                 planners,
                 published: plan.published.clone(),
+                histories,
             });
         }
         tables
@@ -193,12 +238,12 @@ impl TablePlan {
 }
 
 impl Tables {
-    /// The summary of a run of the experiment `label` that finished; notes what became of any other.
-    fn sort_in(&mut self, label: &str, result: crate::run::BatchResult) -> Option<RunSummary> {
+    /// A run of the experiment `label` that finished; notes what became of any other.
+    fn sort_in(&mut self, label: &str, result: BatchResult) -> Option<RunOutcome> {
         match result {
             Ok(outcome) => {
-                self.warn(outcome.warnings);
-                Some(outcome.summary)
+                self.warn(outcome.warnings.iter().cloned());
+                Some(outcome)
             }
             Err(ExperimentError::Interrupted) => {
                 self.interrupted = true;
@@ -253,7 +298,10 @@ mod tests {
         let tables = Tables {
             title: String::new(),
             runs: 2,
+            first_seed: 1,
             experiments: Vec::new(),
+            sources: Vec::new(),
+            mesh: None,
             failures: failures.iter().map(ToString::to_string).collect(),
             interrupted,
             warnings: Vec::new(),

@@ -10,7 +10,7 @@ pub mod golden;
 
 use std::sync::Arc;
 
-use adslam_surface::{Surface, Topology};
+use adslam_surface::{Mesh, Surface, Topology};
 use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
@@ -131,4 +131,13 @@ pub fn winding_number(surface: &Surface, q: &Point) -> f64 {
         })
         .sum();
     solid_angles / (4.0 * std::f64::consts::PI)
+}
+
+/// The hull of points as a mesh.
+pub fn mesh(points: Vec<Point>) -> Mesh {
+    let faces = Topology::convex_hull(&points).unwrap().faces().to_vec();
+    Mesh {
+        vertices: points,
+        faces,
+    }
 }

@@ -1,0 +1,19 @@
+//! `adslam mesh`
+
+use adslam_experiment::{ExperimentError, MeshReport};
+
+use crate::MeshArgs;
+use crate::answer::Answer;
+
+/// Says what a mesh file holds and whether it will serve as an object.
+///
+/// # Errors
+/// A file that cannot be read as a mesh, or a mesh that will not serve, after it has been described.
+pub fn mesh(args: &MeshArgs) -> Result<(), ExperimentError> {
+    Answer::give(args.json, |answer| {
+        let report = MeshReport::read(&args.file, args.unit, args.features)?;
+        answer.set("mesh", &report);
+        answer.say(&report);
+        Ok(report.into_result()?)
+    })
+}

@@ -1,0 +1,29 @@
+//! Recorded runs in the formats of other tools: `adslam export`.
+//!
+//! [`write_mcap`] writes a file for Foxglove, [`write_ply`] a surface and a cloud of features for
+//! each step, [`write_csv`] every component of the state at each step. All take a [`RunHistory`]
+//! and know nothing of how it came about; files appear under their names only when complete.
+//!
+//! [`RunHistory`]: adslam_experiment::run::RunHistory
+
+mod ellipsoid;
+mod mcap;
+mod ply;
+mod table;
+
+use std::io;
+use std::path::Path;
+
+use adslam_experiment::ExperimentError;
+
+pub use mcap::{Period, write_mcap};
+pub use ply::write_ply;
+pub use table::write_csv;
+
+/// The error of a write to `path`.
+fn failed<E: Into<io::Error>>(path: &Path) -> impl FnOnce(E) -> ExperimentError + '_ {
+    move |cause| ExperimentError::Output {
+        path: path.to_owned(),
+        cause: cause.into(),
+    }
+}

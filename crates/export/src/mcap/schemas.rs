@@ -1,0 +1,168 @@
+//! The schemas of the messages, as JSON schemas under Foxglove's names.
+
+use serde_json::{Value, json};
+
+/// What a topic carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Schema {
+    FrameTransform,
+    PoseInFrame,
+    PointCloud,
+    SceneUpdate,
+    /// Ours: the numbers of a step.
+    Metrics,
+}
+
+impl Schema {
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::FrameTransform => "foxglove.FrameTransform",
+            Self::PoseInFrame => "foxglove.PoseInFrame",
+            Self::PointCloud => "foxglove.PointCloud",
+            Self::SceneUpdate => "foxglove.SceneUpdate",
+            Self::Metrics => "adslam.Metrics",
+        }
+    }
+
+    pub(super) fn json(self) -> Value {
+        let fields = match self {
+            Self::FrameTransform => vec![
+                ("timestamp", stamp("time")),
+                ("parent_frame_id", text()),
+                ("child_frame_id", text()),
+                ("translation", xyz()),
+                ("rotation", quaternion()),
+            ],
+            Self::PoseInFrame => vec![
+                ("timestamp", stamp("time")),
+                ("frame_id", text()),
+                ("pose", placed()),
+            ],
+            Self::PointCloud => vec![
+                ("timestamp", stamp("time")),
+                ("frame_id", text()),
+                ("pose", placed()),
+                ("point_stride", integer()),
+                (
+                    "fields",
+                    list(&object(
+                        "foxglove.PackedElementField",
+                        vec![("name", text()), ("offset", integer()), ("type", integer())],
+                    )),
+                ),
+                (
+                    "data",
+                    json!({"type": "string", "contentEncoding": "base64"}),
+                ),
+            ],
+            Self::SceneUpdate => vec![
+                ("deletions", list(&json!({"type": "object"}))),
+                ("entities", list(&entity())),
+            ],
+            Self::Metrics => METRICS.map(|name| (name, number())).into(),
+        };
+        object(self.name(), fields)
+    }
+}
+
+/// The numbers of a step, in the order of the message.
+const METRICS: [&str; 12] = [
+    "pose_error",
+    "orientation_error_rad",
+    "position_error_cm",
+    "relative_pose_error",
+    "feature_error_mean_cm",
+    "feature_error_max_cm",
+    "relative_feature_error_cm",
+    "pose_nees",
+    "feature_nees",
+    "trace",
+    "covered",
+    "surface_distance_cm",
+];
+
+fn entity() -> Value {
+    let nothing = || list(&json!({"type": "object"}));
+    let sphere = vec![("pose", placed()), ("size", xyz()), ("color", colour())];
+    let triangles = vec![
+        ("pose", placed()),
+        ("points", list(&xyz())),
+        ("color", colour()),
+        ("colors", list(&colour())),
+        ("indices", list(&integer())),
+    ];
+    object(
+        "foxglove.SceneEntity",
+        vec![
+            ("timestamp", stamp("time")),
+            ("frame_id", text()),
+            ("id", text()),
+            ("lifetime", stamp("duration")),
+            ("frame_locked", json!({"type": "boolean"})),
+            ("metadata", nothing()),
+            ("arrows", nothing()),
+            ("cubes", nothing()),
+            ("spheres", list(&object("foxglove.SpherePrimitive", sphere))),
+            ("cylinders", nothing()),
+            ("lines", nothing()),
+            (
+                "triangles",
+                list(&object("foxglove.TriangleListPrimitive", triangles)),
+            ),
+            ("texts", nothing()),
+            ("models", nothing()),
+        ],
+    )
+}
+
+fn object(title: &str, fields: Vec<(&str, Value)>) -> Value {
+    let fields: serde_json::Map<String, Value> = fields
+        .into_iter()
+        .map(|(name, schema)| (name.to_owned(), schema))
+        .collect();
+    json!({"title": title, "type": "object", "properties": fields})
+}
+
+fn list(of: &Value) -> Value {
+    json!({"type": "array", "items": of})
+}
+
+fn number() -> Value {
+    json!({"type": "number"})
+}
+
+fn integer() -> Value {
+    json!({"type": "integer", "minimum": 0})
+}
+
+fn text() -> Value {
+    json!({"type": "string"})
+}
+
+/// A time or a duration, which readers tell by the title.
+fn stamp(title: &str) -> Value {
+    object(title, vec![("sec", integer()), ("nsec", integer())])
+}
+
+fn numbers(title: &str, names: &[&str]) -> Value {
+    object(title, names.iter().map(|name| (*name, number())).collect())
+}
+
+fn xyz() -> Value {
+    numbers("foxglove.Vector3", &["x", "y", "z"])
+}
+
+fn quaternion() -> Value {
+    numbers("foxglove.Quaternion", &["x", "y", "z", "w"])
+}
+
+fn colour() -> Value {
+    numbers("foxglove.Color", &["r", "g", "b", "a"])
+}
+
+fn placed() -> Value {
+    object(
+        "foxglove.Pose",
+        vec![("position", xyz()), ("orientation", quaternion())],
+    )
+}

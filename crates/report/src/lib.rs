@@ -1,0 +1,69 @@
+//! The results of a configuration as one web page that opens offline: report.html.
+//!
+//! The page holds the tables with the published values beside ours and a mark for how well each
+//! cell agrees, the figures, and the files that the results were made from. Replays of one run of
+//! each method lie beside it. It needs no network and no JavaScript, follows the reader's light or
+//! dark setting, and prints.
+//!
+//! This crate knows [`Tables`] and what figures and replays are made of, and nothing of how a run
+//! came about.
+
+mod drawings;
+mod machine;
+mod marks;
+mod page;
+mod tables;
+
+use std::path::{Path, PathBuf};
+
+use adslam_experiment::ExperimentError;
+use adslam_experiment::output::{AtomicFile, prepare_folder};
+use adslam_experiment::tables::{ExperimentTables, Tables};
+
+pub use machine::Machine;
+
+/// The name of the page.
+pub const REPORT_FILE: &str = "report.html";
+
+/// The folder of the replays, beside the page.
+pub const REPLAYS_FOLDER: &str = "replays";
+
+/// Writes report.html, and a replay of every recorded run, into `folder`, which must exist;
+/// returns the path of the page.
+///
+/// Figures and replays are of the runs that were recorded; without any the page has tables only.
+///
+/// # Errors
+/// A file that cannot be written; what lay in its place is then unchanged.
+pub fn write(tables: &Tables, folder: &Path) -> Result<PathBuf, ExperimentError> {
+    let replays = folder.join(REPLAYS_FOLDER);
+    if tables.experiments.iter().any(|e| !e.histories.is_empty()) {
+        prepare_folder(&replays)?;
+    }
+    for experiment in &tables.experiments {
+        for (file, history) in replays_of(experiment) {
+            adslam_replay::write_html(&[history], &replays.join(file))?;
+        }
+    }
+    let path = folder.join(REPORT_FILE);
+    let page = html(tables, &Machine::this());
+    AtomicFile::with_content(&path, page.as_bytes())?.commit()?;
+    Ok(path)
+}
+
+/// The page, for results that were made on `machine`.
+#[must_use]
+pub fn html(tables: &Tables, machine: &Machine) -> String {
+    page::page(tables, machine).into_string()
+}
+
+/// The recorded runs of an experiment with the names of their replays' files.
+fn replays_of(
+    experiment: &ExperimentTables,
+) -> impl Iterator<Item = (String, &adslam_experiment::run::RunHistory)> {
+    let histories = experiment.histories.iter();
+    histories.map(|history| {
+        let file = format!("{}-{}.html", experiment.label, history.planner);
+        (file, history)
+    })
+}
