@@ -354,7 +354,7 @@ fn decision_parts(c: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = Criterion::default()
-        .sample_size(15)
+        .sample_size(10)
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_millis(1000));
     targets = local_decision, combined_decision, whole_decision, decision_parts
