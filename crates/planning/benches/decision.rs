@@ -1,4 +1,4 @@
-//! Decisions of the local and the combined planner, in situations from the shipped scenarios.
+//! Decisions of the local and the combined planner, on situations from runs of the shipped scenarios.
 //!
 //! `local_decision` and `combined_decision` time the scoring alone, of candidates whose visible sets are
 //! known; `whole_decision` all that a planner does for one step, and `decision_parts` what is in it besides.
@@ -38,13 +38,13 @@ use nalgebra::{Point3, Vector3};
 const STEPS: [usize; 5] = [5, 10, 15, 20, 25];
 const SEED: u64 = 1;
 
-/// A scenario and moments of runs of it, made when a benchmark that is not filtered out asks.
+/// A scenario and moments of runs of it, made when first asked for.
 struct Case {
     name: &'static str,
     file: &'static str,
     features: Option<usize>,
     setup: OnceLock<Setup>,
-    moments: OnceLock<Vec<Moment>>,
+    moments: [OnceLock<Vec<Moment>>; 4],
 }
 
 static CASES: LazyLock<[Case; 4]> = LazyLock::new(|| {
@@ -53,7 +53,7 @@ static CASES: LazyLock<[Case; 4]> = LazyLock::new(|| {
         file,
         features,
         setup: OnceLock::new(),
-        moments: OnceLock::new(),
+        moments: Default::default(),
     };
     [
         case("polygon", "polygon.toml", None),
@@ -67,8 +67,7 @@ static CASES: LazyLock<[Case; 4]> = LazyLock::new(|| {
 struct Moment {
     belief: Belief,
     feature_motion: Vec<Vector3<f64>>,
-    /// The viewpoint that a robot which visits them is heading for.
-    goal: Point3<f64>,
+    goal: Option<Point3<f64>>,
 }
 
 struct Recorder<'a> {
@@ -80,11 +79,10 @@ impl Observer for Recorder<'_> {
     fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
         if STEPS.contains(&view.step) {
             let goal = view.decision.and_then(|(decision, _)| decision.goal);
-            let (_, goal) = goal.unwrap();
             self.moments.push(Moment {
                 belief: view.belief.clone(),
                 feature_motion: self.setup.known_feature_motion(view.step),
-                goal,
+                goal: goal.map(|(_, viewpoint)| viewpoint),
             });
         }
         if Some(&view.step) == STEPS.last() {
@@ -108,14 +106,13 @@ impl Case {
         })
     }
 
-    /// Along the way of the global planner, which leads around the object and costs little.
-    fn moments(&self) -> &[Moment] {
-        self.moments.get_or_init(|| {
+    fn moments(&self, planner: PlannerName) -> &[Moment] {
+        self.moments[planner as usize].get_or_init(|| {
             let mut recorder = Recorder {
                 setup: self.setup(),
                 moments: Vec::new(),
             };
-            let (planner, interrupt) = (PlannerName::Global, Interrupt::new());
+            let interrupt = Interrupt::new();
             // The recorder ends it after the last of the steps.
             let _ = simulate(self.setup(), planner, SEED, &interrupt, &mut recorder);
             assert_eq!(recorder.moments.len(), STEPS.len());
@@ -156,13 +153,15 @@ impl Candidates {
         let (mut surfaces, mut safe) = (ObjectSurfaces::default(), SafeActions::default());
         let [now, after] = surfaces.place(&situation).unwrap();
         safe.find(&situation, [now, after]).unwrap();
-        if planner == PlannerName::Combined {
+        if let Some(goal) = &moment.goal {
             let nearest = case.setup().scenario.planners.combined.nearest();
             let nearest = match nearest {
                 adslam_experiment::scenario::Nearest::Fraction(share) => Nearest::Fraction(share),
                 adslam_experiment::scenario::Nearest::Count(count) => Nearest::Count(count),
             };
-            safe.keep_nearest(&moment.goal, nearest.of(safe.candidates().len()));
+            safe.keep_nearest(goal, nearest.of(safe.candidates().len()));
+        } else {
+            assert_eq!(planner, PlannerName::Local);
         }
         let model = &case.setup().planning;
         let mut sets = VisibleSets::default();
@@ -241,7 +240,7 @@ fn scoring(c: &mut Criterion, name: &str, planner: PlannerName) {
     for case in &*CASES {
         let noise = case.noise(planner);
         let candidates: Vec<(&Moment, Candidates)> = case
-            .moments()
+            .moments(planner)
             .iter()
             .map(|moment| (moment, Candidates::of(case, planner, moment)))
             .collect();
@@ -303,7 +302,7 @@ fn whole_decision(c: &mut Criterion) {
             PlannerName::Global,
         ] {
             group.bench_function(BenchmarkId::new(planner.to_string(), case.name), |b| {
-                let moments = case.moments();
+                let moments = case.moments(planner);
                 let mut next = in_turn(moments);
                 let belief = &moments[0].belief;
                 let (mut decider, _) = build_planner(case.setup(), planner, belief, SEED).unwrap();
@@ -320,7 +319,7 @@ fn decision_parts(c: &mut Criterion) {
     group.sampling_mode(SamplingMode::Flat);
     for case in &*CASES {
         group.bench_function(BenchmarkId::new("clearance", case.name), |b| {
-            let mut next = in_turn(case.moments());
+            let mut next = in_turn(case.moments(PlannerName::Local));
             let (mut surfaces, mut safe) = (ObjectSurfaces::default(), SafeActions::default());
             b.iter(|| {
                 let situation = case.situation(next());
@@ -331,7 +330,7 @@ fn decision_parts(c: &mut Criterion) {
         });
 
         group.bench_function(BenchmarkId::new("visibility", case.name), |b| {
-            let moments = case.moments();
+            let moments = case.moments(PlannerName::Local);
             let candidates: Vec<(&Moment, Candidates)> = moments
                 .iter()
                 .map(|moment| (moment, Candidates::of(case, PlannerName::Local, moment)))
