@@ -16,6 +16,17 @@ pub enum PlanningError {
     /// The robot has nothing to choose from.
     #[error("the set of actions is empty; give at least one value for each of its lists")]
     NoActions,
+    /// Visible sets that belong to another list of candidates.
+    #[error(
+        "{sets} visible sets are given for {candidates} candidates; find the sets of these candidates \
+         first"
+    )]
+    SetsOfOtherCandidates {
+        /// How many sets there are.
+        sets: usize,
+        /// How many candidates there are.
+        candidates: usize,
+    },
     /// A grid of viewpoints without a usable point.
     #[error(
         "none of the {candidates} viewpoint candidates lies outside the object; widen the grid or \

@@ -77,13 +77,19 @@ impl ActionScorer {
     /// trace, so a set that contains its own gives a lower bound.
     ///
     /// # Errors
-    /// A belief that has broken down.
+    /// Sets of other candidates, or a belief that has broken down.
     pub fn best(
         &mut self,
         situation: &Situation<'_>,
         candidates: &[Candidate],
         sets: &VisibleSets,
     ) -> Result<Option<Score>, PlanningError> {
+        if sets.count() != candidates.len() {
+            return Err(PlanningError::SetsOfOtherCandidates {
+                sets: sets.count(),
+                candidates: candidates.len(),
+            });
+        }
         let model = situation.model;
         sets.union(&mut self.ids);
         self.objective.prepare(

@@ -81,7 +81,18 @@ impl VisibleSets {
         });
     }
 
-    /// The set of a candidate, by its place in the list that was given.
+    /// Of how many candidates the sets are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.order.len()
+    }
+
+    /// The set of a candidate, by its place in the list that was given: feature j is bit j mod 64 of
+    /// word j / 64.
+    ///
+    /// # Panics
+    /// If there is no such candidate.
+    #[must_use]
     pub fn set(&self, candidate: usize) -> &[u64] {
         &self.bits[candidate * self.words..][..self.words]
     }

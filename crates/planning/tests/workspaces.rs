@@ -1,4 +1,4 @@
-//! Decisions take no memory after the first of their kind.
+//! What decisions keep from one to the next: no memory is taken after the first of their kind.
 #![allow(
     clippy::unwrap_used,
     reason = "a helper that fails is a test that fails"
@@ -8,7 +8,8 @@ mod common;
 
 use adslam_models::Pose;
 use adslam_planning::{
-    CombinedPlanner, GlobalPlanner, Goals, LocalPlanner, Nearest, Planner, PlanningNoise, Situation,
+    ActionScorer, CombinedPlanner, GlobalPlanner, Goals, LocalPlanner, Nearest, ObjectSurfaces,
+    Planner, PlanningNoise, SafeActions, Situation, VisibleSets,
 };
 use allocation_counter::measure;
 use nalgebra::{Point3, Vector3, Vector6};
@@ -60,4 +61,23 @@ fn the_second_of_two_like_decisions_allocates_nothing() {
             assert_eq!(second.unwrap(), first);
         }
     }
+}
+
+#[test]
+fn sets_of_other_candidates_are_refused() {
+    let features = ball(14);
+    let (model, belief) = common::world(&features, Pose::default()).unwrap();
+    let situation = Situation {
+        belief: &belief,
+        feature_motion: &vec![Vector3::zeros(); features.len()],
+        model: &model,
+        time_is_up: None,
+    };
+    let (mut surfaces, mut safe) = (ObjectSurfaces::default(), SafeActions::default());
+    safe.find(&situation, surfaces.place(&situation).unwrap())
+        .unwrap();
+    let error = ActionScorer::default()
+        .best(&situation, safe.candidates(), &VisibleSets::default())
+        .unwrap_err();
+    assert!(error.to_string().contains("0 visible sets"), "{error}");
 }

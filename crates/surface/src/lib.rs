@@ -6,6 +6,9 @@
 //! file, or the built-in
 //! [`heart_phantom`]; [`pick_features`] chooses the points of it that a robot will observe.
 //!
+//! Where a decision asks much of one place, a [`Fan`] answers for all lines of sight from it, and a
+//! [`Clearance`] for all ways from it, with the same answers as one by one.
+//!
 //! Lengths are centimetres and positions are in the world frame throughout. Decisions (which side,
 //! does it touch, is it a corner of the hull) are taken with Shewchuk's adaptive exact predicates,
 //! so that they hold for rays through edges and corners and for points on a common plane.
