@@ -5,6 +5,8 @@
 //! factorisation costs n²m + nm² + m³/3; and it needs room for n × b numbers only, not n × m.
 
 use adslam_models::POSE_DIM;
+use std::ops::Range;
+
 use faer::prelude::ReborrowMut;
 
 use crate::buffer::Buffer;
@@ -88,6 +90,14 @@ pub(crate) fn block_rows(dim: usize) -> usize {
         300..1000 => 48,
         _ => 192,
     }
+}
+
+/// The numbers `all` of what is measured on three axes each, in blocks for a state of `dim` entries.
+pub(crate) fn blocks(all: Range<usize>, dim: usize) -> impl Iterator<Item = Range<usize>> {
+    let size = block_rows(dim) / 3;
+    let end = all.end;
+    all.step_by(size)
+        .map(move |first| first..end.min(first + size))
 }
 
 /// y ← y + a x.

@@ -154,11 +154,7 @@ impl Candidates {
         let [now, after] = surfaces.place(&situation).unwrap();
         safe.find(&situation, [now, after]).unwrap();
         if let Some(goal) = &moment.goal {
-            let nearest = case.setup().scenario.planners.combined.nearest();
-            let nearest = match nearest {
-                adslam_experiment::scenario::Nearest::Fraction(share) => Nearest::Fraction(share),
-                adslam_experiment::scenario::Nearest::Count(count) => Nearest::Count(count),
-            };
+            let nearest = Nearest::from(case.setup().scenario.planners.combined.nearest());
             safe.keep_nearest(goal, nearest.of(safe.candidates().len()));
         } else {
             assert_eq!(planner, PlannerName::Local);

@@ -11,7 +11,7 @@ use std::ops::Range;
 use adslam_models::POSE_DIM;
 use nalgebra::{Matrix3, Vector3};
 
-use crate::workspace::{Workspace, add_scaled, block_rows};
+use crate::workspace::{Workspace, add_scaled, blocks};
 use crate::{Covariance, EstimatorError, Parallelism};
 
 /// The numbers of the reflection for M features.
@@ -58,11 +58,10 @@ pub(crate) fn condition_on_all_pairs(
     }
     let reflection = Reflection::new(count);
     sum_columns(covariance, &reflection, workspace, parallelism);
-    for first in (1..count).step_by(block_rows(dim) / 3) {
-        let block = first..count.min(first + block_rows(dim) / 3);
+    for block in blocks(1..count, dim) {
         workspace.start_block(3 * block.len());
         let columns = workspace.products.as_mut();
-        covariance.copy_columns(POSE_DIM + 3 * first, columns, parallelism);
+        covariance.copy_columns(POSE_DIM + 3 * block.start, columns, parallelism);
         lay_out(&reflection, block, residual, sigma, workspace);
         workspace.condition(
             covariance,

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 
 use crate::buffer::Buffer;
 use crate::linear_algebra::set_product;
-use crate::workspace::{Workspace, block_rows};
+use crate::workspace::{Workspace, blocks};
 use crate::{Covariance, EstimatorError, PairMeasurement, Parallelism};
 
 /// Eigenvalues of a Laplacian are zero or at least about 1/M²; rounding leaves M·ε.
@@ -87,8 +87,7 @@ impl PairGraph {
     ) -> Result<(), EstimatorError> {
         let dim = covariance.dim();
         workspace.prepare(dim, 1);
-        for first in (0..self.values.len()).step_by(block_rows(dim) / 3) {
-            let block = first..self.values.len().min(first + block_rows(dim) / 3);
+        for block in blocks(0..self.values.len(), dim) {
             workspace.start_block(3 * block.len());
             self.set_products(covariance, block.clone(), workspace, parallelism);
             self.set_innovations(block, residual, sigma, workspace);

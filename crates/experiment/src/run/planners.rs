@@ -43,10 +43,7 @@ pub fn build_planner(
         }
         PlannerName::Combined => {
             let (goals, warnings) = goals(setup, belief, seed)?;
-            let nearest = match planners.combined.nearest() {
-                scenario::Nearest::Fraction(fraction) => Nearest::Fraction(fraction),
-                scenario::Nearest::Count(count) => Nearest::Count(count),
-            };
+            let nearest = Nearest::from(planners.combined.nearest());
             let noise = sigma(setup.scenario.combined_planning_sigma_cm());
             (
                 Box::new(CombinedPlanner::new(goals, nearest, noise)),
@@ -54,6 +51,15 @@ pub fn build_planner(
             )
         }
     })
+}
+
+impl From<scenario::Nearest> for Nearest {
+    fn from(nearest: scenario::Nearest) -> Self {
+        match nearest {
+            scenario::Nearest::Fraction(fraction) => Self::Fraction(fraction),
+            scenario::Nearest::Count(count) => Self::Count(count),
+        }
+    }
 }
 
 /// The viewpoints to visit: those of the scenario, or a path drawn by Algorithm 2.
