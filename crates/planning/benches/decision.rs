@@ -13,8 +13,6 @@
 #[path = "../../estimator/tests/common/mod.rs"]
 mod textbook;
 
-use std::fs;
-use std::path::Path;
 use std::sync::{LazyLock, OnceLock};
 use std::time::Duration;
 
@@ -23,12 +21,13 @@ use adslam_estimator::{
 };
 use adslam_experiment::ExperimentError;
 use adslam_experiment::run::{Interrupt, Observer, Setup, StepView, build_planner, simulate};
-use adslam_experiment::scenario::{PlannerName, Scenario};
+use adslam_experiment::scenario::PlannerName;
 use adslam_models::FeatureId;
 use adslam_planning::{
     ActionScorer, Candidate, Nearest, ObjectSurfaces, PlanningNoise, SafeActions, Situation,
     VisibleSets,
 };
+use adslam_tests::setup;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
@@ -95,14 +94,9 @@ impl Observer for Recorder<'_> {
 impl Case {
     fn setup(&self) -> &Setup {
         self.setup.get_or_init(|| {
-            let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-            let path = Path::new(root).join("scenarios").join(self.file);
-            let mut text = fs::read_to_string(&path).unwrap();
-            if let Some(features) = self.features {
-                assert!(text.contains("features = 50"));
-                text = text.replace("features = 50", &format!("features = {features}"));
-            }
-            Setup::new(&Scenario::parse(&text, &path).unwrap()).unwrap()
+            let features = self.features.map(|count| format!("features = {count}"));
+            let features = features.iter().map(|text| ("features = 50", text.as_str()));
+            setup(self.file, &features.collect::<Vec<_>>())
         })
     }
 
