@@ -3,7 +3,7 @@
 mod common;
 
 use adslam_estimator::{
-    Ekf, FeatureMeasurement, Measurements, PairMeasurement, StructureMeasurements,
+    Ekf, Estimator, FeatureMeasurement, Measurements, PairMeasurement, StructureMeasurements,
 };
 use adslam_models::FeatureId;
 use common::{NOISE, assert_close, covariance_matrix};

@@ -22,9 +22,18 @@ fn apart<G: LieGroup>(a: &G, b: &G) -> f64 {
 
 fn group_laws<G: LieGroup>(a: &G, b: &G, c: &G) -> Result<(), TestCaseError> {
     let left = a.compose(b).compose(c);
-    prop_assert!(apart(&left, &a.compose(&b.compose(c))) < 1e-12, "associative");
-    prop_assert!(a.compose(&a.inverse()).log().amax() < 1e-12, "inverse on the right");
-    prop_assert!(a.inverse().compose(a).log().amax() < 1e-12, "inverse on the left");
+    prop_assert!(
+        apart(&left, &a.compose(&b.compose(c))) < 1e-12,
+        "associative"
+    );
+    prop_assert!(
+        a.compose(&a.inverse()).log().amax() < 1e-12,
+        "inverse on the right"
+    );
+    prop_assert!(
+        a.inverse().compose(a).log().amax() < 1e-12,
+        "inverse on the left"
+    );
     Ok(())
 }
 
@@ -33,16 +42,25 @@ fn exponential_laws<G: LieGroup>(tau: &DVector<f64>) -> Result<(), TestCaseError
     prop_assert!((element.log() - tau).amax() < 1e-9, "log undoes exp");
     let halves = G::exp(&(tau * 0.3)).compose(&G::exp(&(tau * 0.7)));
     prop_assert!(apart(&element, &halves) < 1e-11, "one-parameter subgroup");
-    prop_assert!(apart(&element.inverse(), &G::exp(&-tau)) < 1e-11, "exp(−τ) is the inverse");
+    prop_assert!(
+        apart(&element.inverse(), &G::exp(&-tau)) < 1e-11,
+        "exp(−τ) is the inverse"
+    );
     Ok(())
 }
 
 fn adjoint_laws<G: LieGroup>(a: &G, b: &G, tau: &DVector<f64>) -> Result<(), TestCaseError> {
     let conjugate = a.compose(&G::exp(tau)).compose(&a.inverse());
     let adjoint = G::exp(&(a.adjoint() * tau));
-    prop_assert!(apart(&conjugate, &adjoint) < 1e-9, "X exp(τ) X⁻¹ = exp(Ad τ)");
+    prop_assert!(
+        apart(&conjugate, &adjoint) < 1e-9,
+        "X exp(τ) X⁻¹ = exp(Ad τ)"
+    );
     let product = a.adjoint() * b.adjoint();
-    prop_assert!((a.compose(b).adjoint() - product).amax() < 1e-9, "Ad of a product");
+    prop_assert!(
+        (a.compose(b).adjoint() - product).amax() < 1e-9,
+        "Ad of a product"
+    );
     Ok(())
 }
 
@@ -59,7 +77,11 @@ fn jacobian_law<G: LieGroup>(tau: &DVector<f64>) -> Result<(), TestCaseError> {
         numeric.set_column(k, &column);
     }
     let difference = G::left_jacobian(tau) - numeric;
-    prop_assert!(difference.amax() < 1e-7, "left Jacobian, off by {}", difference.amax());
+    prop_assert!(
+        difference.amax() < 1e-7,
+        "left Jacobian, off by {}",
+        difference.amax()
+    );
     Ok(())
 }
 
