@@ -11,6 +11,7 @@ pub mod output;
 pub mod run;
 pub mod scenario;
 pub mod schema;
+pub mod statistics;
 pub mod tables;
 pub mod world;
 
