@@ -12,6 +12,7 @@ pub mod run;
 pub mod scenario;
 pub mod schema;
 pub mod statistics;
+pub mod study;
 pub mod tables;
 pub mod world;
 
