@@ -11,6 +11,8 @@ pub mod output;
 pub mod run;
 pub mod scenario;
 pub mod schema;
+pub mod statistics;
+pub mod study;
 pub mod tables;
 pub mod world;
 

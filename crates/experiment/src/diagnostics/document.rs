@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use schemars::JsonSchema;
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::explain::{Surroundings, explain, explain_syntax};
@@ -145,6 +147,15 @@ impl Document {
             .flat_map(DeTable::keys)
             .map(|key| key.get_ref().to_string())
             .collect()
+    }
+
+    /// The document as JSON.
+    pub(crate) fn to_json(&self) -> Value {
+        let json = self.tables().ok().and_then(|tables| {
+            let root = toml::Spanned::new(0..0, tables);
+            Value::deserialize(Deserializer::from(root)).ok()
+        });
+        json.unwrap_or_default()
     }
 
     /// Reads the document as a `T`.

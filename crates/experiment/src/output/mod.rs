@@ -5,6 +5,7 @@ mod features;
 mod steps;
 mod tum;
 
+pub(crate) use atomic::remove_leftovers;
 pub use atomic::{AtomicFile, prepare_folder};
 pub use features::{FeaturesFile, LastFeatures};
 pub use steps::StepsFile;

@@ -2,6 +2,7 @@
 
 mod batch;
 mod history;
+mod identity;
 mod planners;
 mod record;
 mod rest_object;

@@ -136,6 +136,12 @@ impl Scenario {
         self.document.text()
     }
 
+    /// Every key that is written, overrides in place of what they override, as JSON: what tells two scenarios
+    /// apart, whatever their comments and their place.
+    pub fn keys(&self) -> serde_json::Value {
+        self.document.to_json()
+    }
+
     /// The scenario as text, overrides apart.
     pub(crate) fn document(&self) -> &Document {
         &self.document

@@ -268,16 +268,7 @@ impl Tables {
     /// [`ExperimentError::Interrupted`] where runs were not done, else [`ExperimentError::Runs`]
     /// where some failed.
     pub fn into_result(self) -> Result<(), ExperimentError> {
-        if self.interrupted {
-            return Err(ExperimentError::Interrupted);
-        }
-        if self.failures.is_empty() {
-            Ok(())
-        } else {
-            Err(ExperimentError::Runs {
-                failures: self.failures,
-            })
-        }
+        ExperimentError::unless_complete(self.interrupted, self.failures)
     }
 
     /// Adds warnings that are not there yet: every seed of a scenario may give the same.
