@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use adslam_experiment::ExperimentError;
 use adslam_experiment::diagnostics::FileKind;
 use adslam_experiment::run::Interrupt;
-use adslam_experiment::scenario::{LengthUnit, PlannerName};
+use adslam_experiment::scenario::values::{Probability, ValueError};
+use adslam_experiment::scenario::{EstimatorName, LengthUnit, PlannerName};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use crate::commands;
-use crate::planner::PlannerParser;
+use crate::named::NameParser;
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -182,7 +183,7 @@ pub struct RunArgs {
     /// The scenario file: what the world is
     pub scenario: PathBuf,
     /// The planner
-    #[arg(long, value_name = "NAME", value_parser = PlannerParser)]
+    #[arg(long, value_name = "NAME", value_parser = NameParser::<PlannerName>::new())]
     pub planner: PlannerName,
     /// Seed of all noise; every planner meets the same noise at the same seed
     #[arg(long, default_value_t = 1, value_name = "N")]
@@ -254,6 +255,12 @@ pub struct FilterArgs {
     /// The file of estimates to write
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+    /// The estimator: euler_ekf, so3_ekf or right_invariant_ekf
+    #[arg(long, value_name = "NAME", default_value_t, value_parser = NameParser::<EstimatorName>::new())]
+    pub estimator: EstimatorName,
+    /// Keep out feature measurements less likely than this: the part of good ones that pass, such as 0.999
+    #[arg(long, value_name = "PROBABILITY", value_parser = probability)]
+    pub gate: Option<Probability>,
     /// At a line that cannot be used, keep the estimates up to the line before
     #[arg(long)]
     pub keep_complete: bool,
@@ -306,6 +313,11 @@ pub struct MeshArgs {
     /// Answer with one JSON object
     #[arg(long)]
     pub json: bool,
+}
+
+fn probability(given: &str) -> Result<Probability, ValueError> {
+    // What is no number is answered like one that is out of range.
+    Probability::new(given.parse().unwrap_or(f64::NAN))
 }
 
 impl Command {

@@ -5,8 +5,8 @@ mod args;
 mod commands;
 mod exit;
 mod interrupt;
+mod named;
 mod paths;
-mod planner;
 mod print;
 mod progress;
 

@@ -18,4 +18,5 @@ pub use planners::build_planner;
 pub use record::RunRecorder;
 pub(crate) use rest_object::parted;
 pub use setup::Setup;
+pub(crate) use setup::gate;
 pub use simulate::{NoObserver, Observer, RunOutcome, StepView, simulate};

@@ -39,7 +39,7 @@ impl Named for EstimatorName {
     const KIND: &'static str = "estimator";
     const ALL: &'static [Self] = &[Self::EulerEkf, Self::So3Ekf, Self::RightInvariantEkf];
 
-    fn name(self) -> &'static str {
+    fn as_str(self) -> &'static str {
         match self {
             Self::EulerEkf => "euler_ekf",
             Self::So3Ekf => "so3_ekf",
@@ -60,6 +60,6 @@ impl From<EstimatorName> for EstimatorKind {
 
 impl fmt::Display for EstimatorName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
+        f.pad(self.as_str())
     }
 }

@@ -5,7 +5,9 @@
 //! `docs/scenario.md` is the reference for users.
 
 mod checks;
+mod estimators;
 mod motion;
+mod named;
 mod noise;
 mod object;
 mod planners;
@@ -22,15 +24,15 @@ use nalgebra::Point3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+pub use estimators::EstimatorName;
 pub use motion::{
     Anchored, AnchoredSinusoid, BackAndForthStep, Deformation, Direction, Motion, MotionBuildError,
     Rotation, Swing, Translation,
 };
+pub use named::{Named, UnknownName};
 pub use noise::{DeformationNoise, Filter, FilterNoise, Noise, Structure};
 pub use object::{LengthUnit, Mesh, MeshPlacement, Object, Phantom, Points, UnknownUnit};
-pub use planners::{
-    Combined, Global, Local, Nearest, PlannerName, Planners, Predetermined, UnknownPlanner,
-};
+pub use planners::{Combined, Global, Local, Nearest, PlannerName, Planners, Predetermined};
 pub use robot::{Actions, Robot, Sensor};
 use values::{Name, Steps};
 pub use viewpoints::{Fixed, Grid, Viewpoints};

@@ -12,18 +12,18 @@ pub trait Named: Copy + Sized + 'static {
     const ALL: &'static [Self];
 
     /// The name used in files and on the command line.
-    fn name(self) -> &'static str;
+    fn as_str(self) -> &'static str;
 
     /// The one of that name.
     ///
     /// # Errors
     /// [`UnknownName`], with the names that there are.
     fn named(given: &str) -> Result<Self, UnknownName> {
-        let found = Self::ALL.iter().find(|one| one.name() == given);
+        let found = Self::ALL.iter().find(|one| one.as_str() == given);
         found.copied().ok_or_else(|| UnknownName {
             kind: Self::KIND,
             given: given.to_owned(),
-            known: Self::ALL.iter().map(|one| one.name()).collect(),
+            known: Self::ALL.iter().map(|one| one.as_str()).collect(),
         })
     }
 }
@@ -54,7 +54,7 @@ mod tests {
 
     fn go_there_and_back<T: Named + PartialEq + std::fmt::Debug>() {
         for &one in T::ALL {
-            assert_eq!(T::named(one.name()), Ok(one));
+            assert_eq!(T::named(one.as_str()), Ok(one));
         }
     }
 

@@ -4,6 +4,7 @@
 //! so the same numbers always give the same result; no seed of a run is touched.
 
 mod bootstrap;
+pub mod chi_squared;
 mod holm;
 mod paired;
 
