@@ -8,6 +8,7 @@ mod checks;
 mod motion;
 mod noise;
 mod object;
+mod overridden;
 mod planners;
 mod robot;
 #[cfg(test)]
