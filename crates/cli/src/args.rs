@@ -25,7 +25,7 @@ use crate::named::NameParser;
                   work failed, 2 the input cannot be used, 130 interrupted.",
     after_help = "Try:\n  adslam run scenarios/polygon.toml --planner combined --seed 1 --out run\n  \
                   adslam tables configs/paper.toml --out results\n  \
-                  adslam check scenarios/*.toml configs/*.toml\n  \
+                  adslam check scenarios/*.toml configs/*.toml sweeps/*.toml\n  \
                   adslam new scenario --out mine.toml"
 )]
 pub struct Arguments {
@@ -76,19 +76,34 @@ pub enum Command {
         --html\n\n\
         Example:\n  adslam tables configs/accumulating.toml --runs 20 --out results/accumulating")]
     Tables(TablesArgs),
+    /// Vary keys of a scenario, run every planner at each point, and compare them
+    #[command(
+        after_help = "Every finished run is kept in a file. Stopped or killed, the same command goes on \
+        with what is missing. Writes into the folder given with --out:\n  \
+        table.md           means with intervals, and which planners differ\n  \
+        runs.*             a row a run, as CSV and as JSON lines\n  \
+        table.*            a row for each planner at each point\n  \
+        comparisons.*      a row for each pair of planners, metric by metric\n  \
+        plan.json, records/, study.lock   what it goes on from\n\n\
+        docs/sweep.md says how intervals and tests are computed.\n\n\
+        Example:\n  adslam sweep sweeps/amplitude.toml --out results/amplitude"
+    )]
+    Sweep(SweepArgs),
     /// Say what a mesh file holds and whether it will serve as an object
     #[command(
         after_help = "Reads STL, OBJ and PLY. Exit code 2 where the mesh will not serve, with what \
         to do about it.\n\nExample:\n  adslam mesh heart.stl --unit mm"
     )]
     Mesh(MeshArgs),
-    /// Say whether scenarios and configurations are valid, and what is wrong with them
-    #[command(after_help = "Example:\n  adslam check scenarios/*.toml configs/*.toml")]
+    /// Say whether scenarios, configurations and sweeps are valid, and what is wrong with them
+    #[command(
+        after_help = "Example:\n  adslam check scenarios/*.toml configs/*.toml sweeps/*.toml"
+    )]
     Check(CheckArgs),
-    /// Write a commented scenario or configuration to start from
+    /// Write a commented scenario, configuration or sweep to start from
     #[command(subcommand, after_help = "Example:\n  adslam new scenario")]
     New(NewFile),
-    /// Print the JSON Schema of scenarios or configurations, for editors
+    /// Print the JSON Schema of scenarios, configurations or sweeps, for editors
     #[command(
         after_help = "A TOML file whose first line is `#:schema PATH` is completed and checked by \
         editors with a TOML language server. docs/scenario.md says more.\n\n\
@@ -114,7 +129,7 @@ pub enum Command {
 /// `adslam check`
 #[derive(Debug, Args)]
 pub struct CheckArgs {
-    /// Scenario, configuration and published-table files
+    /// Scenario, configuration, sweep and published-table files
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Answer with one JSON object
@@ -140,12 +155,24 @@ pub enum NewFile {
         #[arg(long, value_name = "FILE")]
         scenario: Option<PathBuf>,
     },
+    /// A sweep: which keys of a scenario are varied, over which values
+    #[command(
+        after_help = "Example:\n  adslam new sweep --scenario scenarios/mine.toml --out sweeps/mine.toml"
+    )]
+    Sweep {
+        /// Where, and how to answer
+        #[command(flatten)]
+        args: NewArgs,
+        /// The scenario to vary; where not given, the scenario.toml beside the sweep
+        #[arg(long, value_name = "FILE")]
+        scenario: Option<PathBuf>,
+    },
 }
 
-/// `adslam new scenario`, and what `adslam new config` has in common with it
+/// `adslam new scenario`, and what the others have in common with it
 #[derive(Debug, Args)]
 pub struct NewArgs {
-    /// The file to write; where not given, scenario.toml or config.toml
+    /// The file to write; where not given, scenario.toml, config.toml or sweep.toml
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace what is there
@@ -165,6 +192,8 @@ pub enum SchemaKind {
     Config,
     /// Published results to compare with
     Published,
+    /// What is varied
+    Sweep,
 }
 
 impl From<SchemaKind> for FileKind {
@@ -173,6 +202,7 @@ impl From<SchemaKind> for FileKind {
             SchemaKind::Scenario => Self::Scenario,
             SchemaKind::Config => Self::Configuration,
             SchemaKind::Published => Self::Published,
+            SchemaKind::Sweep => Self::Sweep,
         }
     }
 }
@@ -294,6 +324,22 @@ pub struct TablesArgs {
     pub json: bool,
 }
 
+/// `adslam sweep`
+#[derive(Debug, Args)]
+pub struct SweepArgs {
+    /// The sweep file: what is varied
+    pub sweep: PathBuf,
+    /// Runs of each planner at each point; as the sweep says where not given
+    #[arg(long, value_name = "N")]
+    pub runs: Option<usize>,
+    /// The folder to write to, and to go on in; made if it does not exist
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Answer with one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// `adslam mesh`
 #[derive(Debug, Args)]
 pub struct MeshArgs {
@@ -332,6 +378,7 @@ impl Command {
             Self::Export(args) => commands::export(args),
             Self::Filter(args) => commands::filter(args, interrupt),
             Self::Tables(args) => commands::tables(args, interrupt),
+            Self::Sweep(args) => commands::sweep(args, interrupt),
             Self::Mesh(args) => commands::mesh(args),
             Self::Check(args) => commands::check(args),
             Self::New(file) => commands::new(file),

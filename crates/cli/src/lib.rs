@@ -12,10 +12,10 @@ mod progress;
 
 pub use args::{
     Arguments, CheckArgs, Command, ExportArgs, ExportFormat, FilterArgs, MeshArgs, NewArgs,
-    NewFile, ReplayArgs, RunArgs, SchemaKind, TablesArgs,
+    NewFile, ReplayArgs, RunArgs, SchemaKind, SweepArgs, TablesArgs,
 };
 pub use commands::{
-    check, completions, export, filter, mesh, new, replay, run, schema, schema_text, tables,
+    check, completions, export, filter, mesh, new, replay, run, schema, schema_text, sweep, tables,
 };
 pub use exit::{BAD_INPUT, FAILURE, INTERRUPTED, exit_code};
 pub use interrupt::stop_on_ctrl_c;

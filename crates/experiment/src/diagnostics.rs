@@ -4,6 +4,7 @@ mod document;
 mod explain;
 mod key_path;
 mod kind;
+mod overlay;
 mod overrides;
 
 use std::fmt::Display;
@@ -16,7 +17,9 @@ use thiserror::Error;
 
 pub(crate) use document::Document;
 pub use explain::nearest;
+pub(crate) use key_path::json_at;
 pub use kind::FileKind;
+pub(crate) use overlay::Layer;
 
 /// Input that cannot be used: a file that cannot be read, or whose content is wrong.
 ///

@@ -13,6 +13,7 @@ pub mod scenario;
 pub mod schema;
 pub mod statistics;
 pub mod study;
+pub mod sweep;
 pub mod tables;
 pub mod world;
 

@@ -9,6 +9,7 @@ mod new;
 mod replay;
 mod run;
 mod schema;
+mod sweep;
 mod tables;
 
 pub use check::check;
@@ -20,4 +21,5 @@ pub use new::new;
 pub use replay::replay;
 pub use run::run;
 pub use schema::{schema, schema_text};
+pub use sweep::sweep;
 pub use tables::tables;

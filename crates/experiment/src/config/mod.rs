@@ -14,6 +14,7 @@ use serde::Deserialize;
 
 pub use check::{CheckedFile, check_file};
 pub use plan::ExperimentPlan;
+pub(crate) use plan::{each_once, reachable};
 pub use published::{Published, PublishedPlanner, PublishedScenario, StepsToCover};
 
 use crate::diagnostics::{Document, FileKind, InputError};
@@ -23,7 +24,7 @@ use crate::scenario::values::{Count, List, Name, Seed};
 /// More runs of a planner are a mistake: their summaries would not fit into memory.
 pub const MOST_RUNS: usize = 100_000;
 /// How many times each planner runs in each experiment.
-type Runs = Count<1, { MOST_RUNS as u64 }>;
+pub(crate) type Runs = Count<1, { MOST_RUNS as u64 }>;
 
 /// A configuration with everything it refers to read, overridden and checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -139,6 +140,6 @@ fn runs() -> Runs {
     Runs::default_of(5)
 }
 
-fn first_seed() -> Seed {
+pub(crate) fn first_seed() -> Seed {
     Seed::default_of(1)
 }

@@ -10,6 +10,7 @@ mod motion;
 mod named;
 mod noise;
 mod object;
+mod overridden;
 mod planners;
 mod robot;
 #[cfg(test)]
