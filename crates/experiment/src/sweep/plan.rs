@@ -12,6 +12,7 @@ use crate::config::MOST_RUNS;
 use crate::diagnostics::InputError;
 use crate::metrics::RunSummary;
 use crate::run::{Interrupt, NoObserver, Setup, simulate};
+use crate::scenario::Named;
 use crate::study::{Study, StudyPlan, StudyUnit};
 
 /// A sweep made ready to run: the object of every point built.

@@ -11,6 +11,7 @@ use super::point::{PlannerMetrics, PointStatistics};
 use super::{SweepPlan, SweepRecord, markdown};
 use crate::ExperimentError;
 use crate::output::{AtomicFile, Column, ColumnKind, TableFile};
+use crate::scenario::Named;
 use crate::statistics::MeanEstimate;
 
 /// What a sweep gave: made of its records alone, the same whenever and in whatever order they were written.
