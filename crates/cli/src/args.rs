@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use adslam_experiment::ExperimentError;
+use adslam_experiment::config::Selection;
 use adslam_experiment::diagnostics::FileKind;
 use adslam_experiment::run::Interrupt;
 use adslam_experiment::scenario::values::{Probability, ValueError};
@@ -89,6 +90,16 @@ pub enum Command {
         Example:\n  adslam sweep sweeps/amplitude.toml --out results/amplitude"
     )]
     Sweep(SweepArgs),
+    /// Say whether estimators know how wrong they are: NEES and NIS of many runs
+    #[command(
+        after_help = "Runs every planner of the configuration with each estimator. Stopped at any moment, \
+        the same command goes on. Writes into the folder given with --out:\n  \
+        consistency.md, consistency.json   the verdicts, for people and for machines\n  \
+        verdicts.csv, steps.csv (.jsonl)   as tables, over all steps and step by step\n  \
+        figures/                           NEES and NIS against the step\n\n\
+        Example:\n  adslam consistency configs/consistency.toml --runs 20 --out results/consistency"
+    )]
+    Consistency(ConsistencyArgs),
     /// Say what a mesh file holds and whether it will serve as an object
     #[command(
         after_help = "Reads STL, OBJ and PLY. Exit code 2 where the mesh will not serve, with what \
@@ -304,15 +315,9 @@ pub struct FilterArgs {
 pub struct TablesArgs {
     /// The configuration file: what is run
     pub config: PathBuf,
-    /// Runs of each planner; as the configuration says where not given
-    #[arg(long, value_name = "N")]
-    pub runs: Option<usize>,
-    /// Only this experiment of the configuration; may be given again
-    #[arg(long, value_name = "LABEL")]
-    pub only: Vec<String>,
-    /// An STL, OBJ or PLY file to take for the object of every experiment with a mesh or a phantom
-    #[arg(long, value_name = "FILE")]
-    pub mesh: Option<PathBuf>,
+    /// What of it is run
+    #[command(flatten)]
+    pub selection: SelectionArgs,
     /// The folder to write to; made if it does not exist
     #[arg(long, default_value = "results", value_name = "DIR")]
     pub out: PathBuf,
@@ -333,6 +338,51 @@ pub struct SweepArgs {
     #[arg(long, value_name = "N")]
     pub runs: Option<usize>,
     /// The folder to write to, and to go on in; made if it does not exist
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Answer with one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What of a configuration is run
+#[derive(Debug, Args)]
+pub struct SelectionArgs {
+    /// Runs of each planner; as the configuration says where not given
+    #[arg(long, value_name = "N")]
+    pub runs: Option<usize>,
+    /// Only this experiment of the configuration; may be given again
+    #[arg(long, value_name = "LABEL")]
+    pub only: Vec<String>,
+    /// An STL, OBJ or PLY file to take for the object of every experiment with a mesh or a phantom
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+}
+
+impl SelectionArgs {
+    /// As the library takes it.
+    #[must_use]
+    pub fn selection(&self) -> Selection {
+        Selection {
+            runs: self.runs,
+            only: self.only.clone(),
+            mesh: self.mesh.clone(),
+        }
+    }
+}
+
+/// `adslam consistency`
+#[derive(Debug, Args)]
+pub struct ConsistencyArgs {
+    /// The configuration file: what is run
+    pub config: PathBuf,
+    /// What of it is run
+    #[command(flatten)]
+    pub selection: SelectionArgs,
+    /// Only this estimator: euler_ekf, so3_ekf or right_invariant_ekf; may be given again. All where not given
+    #[arg(long = "estimator", value_name = "NAME", value_parser = NameParser::<EstimatorName>::new())]
+    pub estimators: Vec<EstimatorName>,
+    /// The folder to write to and to go on in; made if it does not exist
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Answer with one JSON object
@@ -379,6 +429,7 @@ impl Command {
             Self::Filter(args) => commands::filter(args, interrupt),
             Self::Tables(args) => commands::tables(args, interrupt),
             Self::Sweep(args) => commands::sweep(args, interrupt),
+            Self::Consistency(args) => commands::consistency(args, interrupt),
             Self::Mesh(args) => commands::mesh(args),
             Self::Check(args) => commands::check(args),
             Self::New(file) => commands::new(file),

@@ -11,8 +11,8 @@ mod print;
 mod progress;
 
 pub use args::{
-    Arguments, CheckArgs, Command, ExportArgs, ExportFormat, FilterArgs, MeshArgs, NewArgs,
-    NewFile, ReplayArgs, RunArgs, SchemaKind, SweepArgs, TablesArgs,
+    Arguments, CheckArgs, Command, ConsistencyArgs, ExportArgs, ExportFormat, FilterArgs, MeshArgs,
+    NewArgs, NewFile, ReplayArgs, RunArgs, SchemaKind, SelectionArgs, SweepArgs, TablesArgs,
 };
 pub use commands::{
     check, completions, export, filter, mesh, new, replay, run, schema, schema_text, sweep, tables,

@@ -2,6 +2,7 @@
 //! the runner, metrics, logs and tables.
 
 pub mod config;
+pub mod consistency;
 pub mod diagnostics;
 mod error;
 pub mod log;

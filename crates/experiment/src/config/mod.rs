@@ -4,6 +4,7 @@
 mod check;
 mod plan;
 mod published;
+mod selection;
 #[cfg(test)]
 mod tests;
 
@@ -16,6 +17,8 @@ pub use check::{CheckedFile, check_file};
 pub use plan::ExperimentPlan;
 pub(crate) use plan::{each_once, reachable};
 pub use published::{Published, PublishedPlanner, PublishedScenario, StepsToCover};
+pub use selection::Selection;
+pub(crate) use selection::checked_runs;
 
 use crate::diagnostics::{Document, FileKind, InputError};
 use crate::scenario::PlannerName;

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::Sweep;
 use crate::ExperimentError;
-use crate::config::MOST_RUNS;
+use crate::config::checked_runs;
 use crate::diagnostics::InputError;
 use crate::metrics::RunSummary;
 use crate::run::{Interrupt, NoObserver, Setup, simulate};
@@ -42,12 +42,7 @@ impl SweepPlan {
         let sweep = Sweep::load(path)?;
         if let Some(runs) = runs {
             let about = |message: String| InputError::about_file(path, message);
-            if !(1..=MOST_RUNS).contains(&runs) {
-                let message = format!("there are {runs} runs of each planner to do");
-                return Err(
-                    about(message).with_help(format!("ask for 1 to {MOST_RUNS} with --runs"))
-                );
-            }
+            checked_runs(path, runs)?;
             if sweep.runs_in_all(runs).is_none() {
                 return Err(about(sweep.too_many(runs)).with_help("ask for fewer with --runs"));
             }
