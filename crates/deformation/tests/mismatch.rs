@@ -1,6 +1,9 @@
 //! A motion with another clock, scaled, or turned as a whole, against the motion itself.
 
-#![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a helper that fails is a test that fails"
+)]
 
 use std::sync::Arc;
 

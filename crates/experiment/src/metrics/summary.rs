@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::step::{StepMetrics, mean};
+use crate::world::FaultCounts;
 
 /// The result of one run. Pose errors mix radians and cm as eq. (11) does; lengths are cm.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,6 +36,9 @@ pub struct RunSummary {
     pub steps_below_clearance: usize,
     /// Decisions for which no action was safe.
     pub compromised_decisions: usize,
+    /// What went wrong with measurements; absent where the scenario lets nothing go wrong.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub faults: Option<FaultCounts>,
     /// Time to choose an action.
     pub decision_ms: DecisionTimes,
 }
@@ -90,6 +94,7 @@ pub struct SummaryBuilder {
     inside: usize,
     below_clearance: usize,
     compromised: usize,
+    faults: Option<FaultCounts>,
     decision_ms: Vec<f64>,
 }
 
@@ -100,6 +105,22 @@ impl SummaryBuilder {
         Self {
             seen: vec![false; feature_count],
             ..Self::default()
+        }
+    }
+
+    /// In a world where measurements may go wrong, or not.
+    #[must_use]
+    pub fn with_faults(self, can_happen: bool) -> Self {
+        Self {
+            faults: can_happen.then(FaultCounts::default),
+            ..self
+        }
+    }
+
+    /// Adds what went wrong with the measurements of a step.
+    pub fn add_faults(&mut self, faults: FaultCounts) {
+        if let Some(sum) = &mut self.faults {
+            *sum += faults;
         }
     }
 
@@ -161,6 +182,7 @@ impl SummaryBuilder {
             steps_inside_object: self.inside,
             steps_below_clearance: self.below_clearance,
             compromised_decisions: self.compromised,
+            faults: self.faults,
             decision_ms: DecisionTimes::of(self.decision_ms),
         }
     }

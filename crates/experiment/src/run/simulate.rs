@@ -27,7 +27,7 @@ pub struct StepView<'a> {
     pub features: &'a [Point3<f64>],
     /// What the filter believes.
     pub belief: &'a Belief,
-    /// The features that the robot really sees.
+    /// The features that the robot really sees; those that it fails to measure do not count.
     pub visible: &'a [FeatureId],
     /// The errors.
     pub metrics: &'a StepMetrics,
@@ -145,7 +145,8 @@ impl<'a> Run<'a> {
         let run = Self {
             setup,
             sight: Sight::of(&world, setup, &name)?,
-            builder: SummaryBuilder::new(world.features().len()),
+            builder: SummaryBuilder::new(world.features().len())
+                .with_faults(setup.world.faults.can_happen()),
             name,
             world,
             ekf,
@@ -198,10 +199,16 @@ impl<'a> Run<'a> {
             .iter()
             .map(|&(feature, z)| FeatureMeasurement { feature, z })
             .collect();
-        let structure = if self.setup.planning.measures_structure {
-            StructureMeasurements::AllPairsSummed(&measured.structure_sums)
-        } else {
-            StructureMeasurements::None
+        self.sight.visible = features.iter().map(|measured| measured.feature).collect();
+        let takes_structure = self.setup.planning.measures_structure;
+        let mut faults = measured.faults;
+        if !takes_structure {
+            faults.dropped_structures = 0;
+        }
+        self.builder.add_faults(faults);
+        let structure = match &measured.structure_sums {
+            Some(sums) if takes_structure => StructureMeasurements::AllPairsSummed(sums),
+            _ => StructureMeasurements::None,
         };
         let measurements = Measurements {
             features: &features,

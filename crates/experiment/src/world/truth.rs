@@ -5,7 +5,8 @@ use adslam_models::{Control, FeatureId, Pose, feature_measurement, move_pose};
 use nalgebra::{Point3, Vector3, Vector6};
 use rand_chacha::ChaCha12Rng;
 
-use super::{DeformationNoise, Stream, WorldNoise, stream};
+use super::faults::StepFaults;
+use super::{DeformationNoise, FaultCounts, Faults, Stream, WorldNoise, stream};
 
 /// What is true before any noise is drawn.
 #[derive(Clone, Debug)]
@@ -18,15 +19,20 @@ pub struct WorldModel {
     pub motion: ObjectMotion,
     /// How far from the plan everything is.
     pub noise: WorldNoise,
+    /// What goes wrong with measurements beside that.
+    pub faults: Faults,
 }
 
 /// What the robot measures at one step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulatedMeasurements {
-    /// The features seen and their measurements, cm, body frame.
+    /// The features measured and their measurements, cm, body frame.
     pub features: Vec<(FeatureId, Vector3<f64>)>,
     /// For each feature i the sum over all j of the measured p_i − p_j, cm: as good as all pairs.
-    pub structure_sums: Vec<Vector3<f64>>,
+    /// None where they did not arrive.
+    pub structure_sums: Option<Vec<Vector3<f64>>>,
+    /// What went wrong.
+    pub faults: FaultCounts,
 }
 
 /// The truth of one run, moving from step to step.
@@ -41,6 +47,9 @@ pub struct World<'a> {
     motion_stream: ChaCha12Rng,
     deformation_stream: ChaCha12Rng,
     sensor_stream: ChaCha12Rng,
+    fault_stream: ChaCha12Rng,
+    /// What goes wrong with the measurements of the present step.
+    faults: StepFaults,
 }
 
 impl<'a> World<'a> {
@@ -56,6 +65,8 @@ impl<'a> World<'a> {
             motion_stream: stream(seed, Stream::Motion),
             deformation_stream: stream(seed, Stream::Deformation),
             sensor_stream: stream(seed, Stream::Sensor),
+            fault_stream: stream(seed, Stream::Faults),
+            faults: StepFaults::default(),
         };
         world.show_features();
         world
@@ -109,6 +120,8 @@ impl<'a> World<'a> {
         }
         self.step += 1;
         self.show_features();
+        let faults = &self.model.faults;
+        self.faults = faults.draw(self.features.len(), &mut self.fault_stream);
     }
 
     /// p = b + r_d D(n) + w_d. Where the noise accumulates it moves the base as well; the start
@@ -136,9 +149,10 @@ impl<'a> World<'a> {
         self.features = shown.collect();
     }
 
-    /// Measures the visible features and the structure. Noise is drawn for every feature, seen or
-    /// not, so that what one planner sees does not change what another one meets.
-    pub fn measure(&mut self, visible: &[FeatureId]) -> SimulatedMeasurements {
+    /// Measures the features in sight and the structure, as far as faults let it. Noise and faults are
+    /// drawn for every feature, seen or not, so that what one planner sees does not change what
+    /// another one meets.
+    pub fn measure(&mut self, in_sight: &[FeatureId]) -> SimulatedMeasurements {
         let noise = &self.model.noise;
         let stream = &mut self.sensor_stream;
         let errors: Vec<Vector3<f64>> = self
@@ -151,21 +165,33 @@ impl<'a> World<'a> {
             .iter()
             .map(|_| noise.standard_vector(stream))
             .collect();
-        let features = visible
-            .iter()
-            .map(|&id| {
-                let z = feature_measurement(&self.pose, &self.features[id.0]);
-                (id, z + errors[id.0] * noise.feature_measurement_sigma)
-            })
-            .collect();
-        let structure_sums = summed_structure(
-            &self.features,
-            &of_structure,
-            noise.structure_measurement_sigma,
-        );
+        let mut faults = FaultCounts {
+            dropped_structures: usize::from(self.faults.drops_structure),
+            ..FaultCounts::default()
+        };
+        let mut features = Vec::with_capacity(in_sight.len());
+        for &id in in_sight {
+            let fault = self.faults.of_feature(id.0);
+            if fault.is_missed {
+                faults.missed_detections += 1;
+                continue;
+            }
+            let mut z = feature_measurement(&self.pose, &self.features[id.0])
+                + errors[id.0] * noise.feature_measurement_sigma;
+            if let Some(gross) = fault.outlier {
+                faults.outliers += 1;
+                z += gross;
+            }
+            features.push((id, z));
+        }
+        let structure_sums = (!self.faults.drops_structure).then(|| {
+            let sigma = noise.structure_measurement_sigma;
+            summed_structure(&self.features, &of_structure, sigma)
+        });
         SimulatedMeasurements {
             features,
             structure_sums,
+            faults,
         }
     }
 }
@@ -213,6 +239,7 @@ mod tests {
             rest,
             motion: ObjectMotion::default(),
             noise,
+            faults: Faults::default(),
         }
     }
 
@@ -237,6 +264,55 @@ mod tests {
         assert_ne!(
             World::new(&model, 8).features(),
             World::new(&model, 7).features()
+        );
+    }
+
+    /// What is measured is what it would have been, but for the features that are missed, those with
+    /// a gross error, and the structure that is dropped.
+    #[test]
+    fn faults_change_what_they_strike_and_nothing_else() {
+        let faults = Faults {
+            outlier_probability: 0.3,
+            outlier_sigma: 10.0,
+            missed_detection_probability: 0.3,
+            dropped_structure_probability: 0.5,
+        };
+        let sound = model(NOISE);
+        let faulty = WorldModel {
+            faults,
+            ..sound.clone()
+        };
+        let (mut a, mut b) = (World::new(&sound, 7), World::new(&faulty, 7));
+        assert_eq!(a.first_estimate(), b.first_estimate());
+        let all: Vec<FeatureId> = (0..5).map(FeatureId).collect();
+        let mut counts = FaultCounts::default();
+        for _ in 0..40 {
+            a.advance(&Control::default());
+            b.advance(&Control::default());
+            let (expected, found) = (a.measure(&all), b.measure(&all));
+            let exact = found
+                .features
+                .iter()
+                .filter(|z| expected.features.contains(z));
+            assert_eq!(exact.count() + found.faults.outliers, found.features.len());
+            assert_eq!(5 - found.features.len(), found.faults.missed_detections);
+            match found.structure_sums {
+                Some(sums) => assert_eq!(Some(sums), expected.structure_sums),
+                None => assert_eq!(found.faults.dropped_structures, 1),
+            }
+            assert_eq!(expected.faults, FaultCounts::default());
+            counts += found.faults;
+        }
+        let FaultCounts {
+            outliers,
+            missed_detections,
+            dropped_structures,
+        } = counts;
+        assert!((20..70).contains(&outliers), "{outliers}");
+        assert!((35..85).contains(&missed_detections), "{missed_detections}");
+        assert!(
+            (8..32).contains(&dropped_structures),
+            "{dropped_structures}"
         );
     }
 
@@ -291,7 +367,7 @@ mod tests {
         let total: Vector3<f64> = features.iter().map(|p| p.coords).sum();
         let (mut own, mut cross, mut sum) = (0.0, 0.0, 0.0);
         for _ in 0..runs {
-            let sums = world.measure(&[]).structure_sums;
+            let sums = world.measure(&[]).structure_sums.unwrap();
             let noise = |i: usize| (sums[i] - (features[i].coords * count - total)).x;
             own += noise(0) * noise(0);
             cross += noise(1) * noise(3);
