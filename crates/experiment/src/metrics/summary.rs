@@ -16,6 +16,9 @@ pub struct RunSummary {
     pub steps_to_full_coverage: Option<usize>,
     /// Mean over all steps of eq. (11).
     pub pose_error_mean: f64,
+    /// Mean over all steps of the drift floor: the error of the position that no estimator can do
+    /// without, see [`DriftFloor`](super::DriftFloor), cm.
+    pub drift_floor_mean: f64,
     /// Maximum over all steps of eq. (11).
     pub pose_error_max: f64,
     /// Mean over the features of eq. (12) at the last step.
@@ -83,6 +86,7 @@ impl DecisionTimes {
 #[derive(Clone, Debug, Default)]
 pub struct SummaryBuilder {
     pose_errors: Vec<f64>,
+    drift_floors: Vec<f64>,
     relative_pose_errors: Vec<f64>,
     relative_feature_errors: Vec<f64>,
     pose_nees: Vec<f64>,
@@ -122,6 +126,11 @@ impl SummaryBuilder {
         if let Some(sum) = &mut self.faults {
             *sum += faults;
         }
+    }
+
+    /// Adds the drift floor at a step, cm.
+    pub fn add_drift_floor(&mut self, expected_error: f64) {
+        self.drift_floors.push(expected_error);
     }
 
     /// Adds what happened at `step` (from 1): the features then visible (by number), the errors, and the
@@ -172,6 +181,7 @@ impl SummaryBuilder {
             observed: self.observed,
             steps_to_full_coverage: self.coverage_step,
             pose_error_mean: mean(&self.pose_errors),
+            drift_floor_mean: mean(&self.drift_floors),
             pose_error_max: largest(&self.pose_errors),
             feature_error_mean: mean(&self.last_feature_errors),
             feature_error_max: largest(&self.last_feature_errors),
@@ -213,10 +223,14 @@ mod tests {
         builder.add_step(3, [0, 1], &metrics(0.6), -0.1, 0.3);
         builder.add_decision(1.0, false);
         builder.add_decision(3.0, true);
+        [0.0, 0.1, 0.2]
+            .into_iter()
+            .for_each(|floor| builder.add_drift_floor(floor));
         let run = builder.finish(9);
         assert_eq!((run.seed, run.observed), (9, 3), "the start does not count");
         assert_eq!(run.steps_to_full_coverage, Some(3));
         assert!((run.pose_error_mean - 0.3).abs() < 1e-15);
+        assert!((run.drift_floor_mean - 0.1).abs() < 1e-15);
         assert_eq!(
             (run.pose_error_max, run.feature_error_max),
             (0.6, 3.0 * 0.6)

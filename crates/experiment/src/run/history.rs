@@ -159,6 +159,10 @@ pub struct HistoryMetrics {
     pub orientation_error_rad: f64,
     /// The position's part of it, cm.
     pub position_error_cm: f64,
+    /// The error of the position that is to be expected of any estimator, see
+    /// [`DriftFloor`](crate::metrics::DriftFloor), cm; none in files of version 1.
+    #[serde(default)]
+    pub drift_floor_cm: Option<f64>,
     /// Eq. (11) relative to the object.
     pub relative_pose_error: f64,
     /// Mean of eq. (12) over the features, cm.

@@ -12,7 +12,7 @@ use nalgebra::{Matrix6, Point3, Vector3};
 
 use super::{Interrupt, RunHistory, Setup, build_planner};
 use crate::ExperimentError;
-use crate::metrics::{RunSummary, StepMetrics, SummaryBuilder, measure_step};
+use crate::metrics::{DriftFloor, RunSummary, StepMetrics, SummaryBuilder, measure_step};
 use crate::scenario::PlannerName;
 use crate::world::World;
 
@@ -31,6 +31,8 @@ pub struct StepView<'a> {
     pub visible: &'a [FeatureId],
     /// The errors.
     pub metrics: &'a StepMetrics,
+    /// The drift floor: the error of the position that is to be expected of any estimator, cm.
+    pub drift_floor: f64,
     /// Signed distance of the true robot from the true surface, cm, negative inside.
     pub surface_distance: f64,
     /// The decision that led here, and how long it took in ms; none at the start.
@@ -110,6 +112,7 @@ struct Run<'a> {
     belief: Belief,
     planner: Box<dyn Planner>,
     builder: SummaryBuilder,
+    drift_floor: DriftFloor,
     deadline_ms: Option<f64>,
 }
 
@@ -147,6 +150,7 @@ impl<'a> Run<'a> {
             sight: Sight::of(&world, setup, &name)?,
             builder: SummaryBuilder::new(world.features().len())
                 .with_faults(setup.world.faults.can_happen()),
+            drift_floor: DriftFloor::at_start(&setup.world.noise, world.features().len()),
             name,
             world,
             ekf,
@@ -178,6 +182,7 @@ impl<'a> Run<'a> {
         let milliseconds = milliseconds_since(start);
 
         self.world.advance(&decision.control);
+        self.drift_floor.advance();
         self.sight = Sight::of(&self.world, self.setup, &self.name)?;
         self.filter(&decision.control, &feature_motion)
             .map_err(self.name.filter_failed(n + 1))?;
@@ -235,6 +240,8 @@ impl<'a> Run<'a> {
         let seen = sight.visible.iter().map(|feature| feature.0);
         self.builder
             .add_step(step, seen, &metrics, sight.surface_distance, clearance);
+        let drift_floor = self.drift_floor.expected_error();
+        self.builder.add_drift_floor(drift_floor);
         if let Some(decided) = decided {
             self.builder
                 .add_decision(decided.milliseconds, decided.decision.compromised);
@@ -246,6 +253,7 @@ impl<'a> Run<'a> {
             belief,
             visible: &sight.visible,
             metrics: &metrics,
+            drift_floor,
             surface_distance: sight.surface_distance,
             decision: decided.map(|decided| (&decided.decision, decided.milliseconds)),
             scores: self.planner.scores(),

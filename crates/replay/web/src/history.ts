@@ -21,6 +21,8 @@ export interface Metrics {
   pose_error: number;
   orientation_error_rad: number;
   position_error_cm: number;
+  /** What any estimator's position error has to be, on average; absent in files of version 1. */
+  drift_floor_cm?: number | null;
   relative_pose_error: number;
   feature_error_mean_cm: number;
   pose_nees: number | null;

@@ -128,6 +128,7 @@ impl<'a> HistoryRecorder<'a> {
             pose_error: number(m.pose_error),
             orientation_error_rad: number(m.orientation_error),
             position_error_cm: number(m.position_error),
+            drift_floor_cm: Some(number(view.drift_floor)),
             relative_pose_error: number(m.relative_pose_error),
             feature_error_mean_cm: number(errors.iter().sum::<f64>() / errors.len().max(1) as f64),
             feature_error_max_cm: number(errors.iter().copied().fold(0.0, f64::max)),

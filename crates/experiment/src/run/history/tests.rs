@@ -161,6 +161,16 @@ fn files_that_cannot_be_used_say_why() {
     let endless = json!([0, u64::MAX]);
     assert!(changed("/steps/1/decision/scored", endless).contains("make no list"));
     assert!(changed("/topology/0/0", json!(77)).contains("a face has number 77"));
+    let mut first_version = good.clone();
+    first_version["version"] = json!(1);
+    for step in first_version["steps"].as_array_mut().unwrap() {
+        step["metrics"]
+            .as_object_mut()
+            .unwrap()
+            .remove("drift_floor_cm");
+    }
+    let read = RunHistory::parse(path, &first_version.to_string()).unwrap();
+    assert_eq!(read.steps[1].metrics.drift_floor_cm, None);
     let missing = RunHistory::load(Path::new("/nowhere/at/all")).unwrap_err();
     assert!(missing.message().contains("cannot read"), "{missing}");
 }
