@@ -13,7 +13,7 @@ use super::rest_object::{RestObject, blamed};
 use crate::diagnostics::InputError;
 use crate::scenario::{self, Scenario, Structure, Viewpoints, values};
 use crate::statistics::chi_squared;
-use crate::world::{DeformationNoise, WorldModel, WorldNoise};
+use crate::world::{DeformationNoise, Faults, WorldModel, WorldNoise};
 
 /// Everything that the runs of one scenario have in common.
 #[derive(Clone, Debug)]
@@ -86,6 +86,7 @@ impl Setup {
                 motion: scenario.true_motion(&object.features)?,
                 rest: object.features,
                 noise: world_noise(scenario, noise.initial_feature_sigma_cm),
+                faults: faults(&scenario.mismatch),
             },
             planning,
             estimator: scenario.filter.estimator.into(),
@@ -199,25 +200,38 @@ impl Setup {
 }
 
 /// The squared distance that good measurements of a feature keep with this probability.
-pub(crate) fn gate(probability: values::Probability) -> f64 {
+pub(crate) fn gate(probability: values::GateProbability) -> f64 {
     chi_squared::quantile(*probability, 3)
 }
 
 fn world_noise(scenario: &Scenario, initial_feature_sigma: f64) -> WorldNoise {
-    let noise = &scenario.noise;
+    let (noise, mismatch) = (&scenario.noise, &scenario.mismatch);
+    let of_robot = *mismatch.robot_noise_factor;
+    let of_features = *mismatch.feature_noise_factor;
     WorldNoise {
-        rotation_sigma: *noise.rotation_sigma_rad,
-        translation_sigma: *noise.translation_sigma_cm,
-        feature_translation_sigma: *noise.feature_translation_sigma_cm,
-        feature_deformation_sigma: *noise.feature_deformation_sigma_cm,
-        feature_measurement_sigma: *noise.feature_measurement_sigma_cm,
-        structure_measurement_sigma: *noise.structure_measurement_sigma_cm,
+        rotation_sigma: of_robot * *noise.rotation_sigma_rad,
+        translation_sigma: of_robot * *noise.translation_sigma_cm,
+        feature_translation_sigma: of_features * *noise.feature_translation_sigma_cm,
+        feature_deformation_sigma: of_features * *noise.feature_deformation_sigma_cm,
+        feature_measurement_sigma: *mismatch.measurement_noise_factor
+            * *noise.feature_measurement_sigma_cm,
+        structure_measurement_sigma: *mismatch.structure_noise_factor
+            * *noise.structure_measurement_sigma_cm,
         initial_feature_sigma,
         deformation: match noise.deformation_noise {
             scenario::DeformationNoise::Fresh => DeformationNoise::Fresh,
             scenario::DeformationNoise::Accumulating => DeformationNoise::Accumulating,
         },
         truncate_at_sigmas: noise.truncate_at_sigmas.map(|limit| *limit),
+    }
+}
+
+fn faults(mismatch: &scenario::Mismatch) -> Faults {
+    Faults {
+        outlier_probability: *mismatch.outlier_probability,
+        outlier_sigma: mismatch.outlier_sigma_cm.map_or(0.0, |sigma| *sigma),
+        missed_detection_probability: *mismatch.missed_detection_probability,
+        dropped_structure_probability: *mismatch.dropped_structure_probability,
     }
 }
 
