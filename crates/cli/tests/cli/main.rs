@@ -20,10 +20,13 @@ mod help;
 #[cfg(unix)]
 mod interrupt;
 mod json;
+#[cfg(unix)]
+mod killed;
 mod mesh;
 mod new;
 mod replay;
 mod run;
 mod schema;
 mod support;
+mod sweep;
 mod tables;
