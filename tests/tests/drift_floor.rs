@@ -8,7 +8,7 @@
 
 use adslam_deformation::{BackAndForth, ObjectMotion};
 use adslam_estimator::{
-    Belief, Ekf, FeatureMeasurement, FilterNoise, Measurements, StructureMeasurements,
+    Belief, Ekf, Estimator, FeatureMeasurement, FilterNoise, Measurements, StructureMeasurements,
 };
 use adslam_experiment::metrics::DriftFloor;
 use adslam_experiment::run::{Batch, HistoryMetrics, Interrupt};
