@@ -12,6 +12,7 @@ mod bad_output;
 mod bad_scenarios;
 mod bad_tables;
 mod check;
+mod consistency;
 mod evo;
 mod export;
 mod failures;
