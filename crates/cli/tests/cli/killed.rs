@@ -11,7 +11,7 @@ use super::sweep::{records, start, sweep, tables, wait_for_records};
 
 const KILLS: u64 = 20;
 /// Of each of two planners at two points.
-const RUNS: usize = 100;
+const RUNS: usize = 60;
 const ALL: usize = 4 * RUNS;
 
 /// Numbers that look random, for moments to kill at (S. Vigna's SplitMix64).

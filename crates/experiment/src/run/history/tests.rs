@@ -1,6 +1,7 @@
 //! What is recorded against the run itself, and files that cannot be used.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
@@ -106,7 +107,8 @@ fn the_drawn_mesh_moves_as_the_scenario_says() {
         let mut setup = setup_with(name, 9, tables);
         if name == "rotating" {
             // Any mesh but the features' own surface.
-            setup.drawn.vertices.push(Point3::new(0.3, -0.4, 0.5));
+            let drawn = Arc::make_mut(&mut setup.drawn);
+            drawn.vertices.push(Point3::new(0.3, -0.4, 0.5));
         }
         let history = record(&setup, PlannerName::Predetermined);
         let motion = &setup.world.motion;

@@ -2,12 +2,14 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use serde_json::{Value, json};
 
 use super::{Folder, loaded};
 use crate::config::{Config, check_file};
 use crate::diagnostics::FileKind;
+use crate::run::Setup;
 use crate::scenario::Scenario;
 use crate::scenario::tests::repository;
 use crate::sweep::{Sweep, SweepPlan};
@@ -101,5 +103,31 @@ fn the_shipped_sweeps_can_be_run() {
         let plan = SweepPlan::load(&path, None).unwrap();
         assert!(plan.total_runs() > 100, "{}", path.display());
         assert!(plan.warnings().is_empty(), "{:?}", plan.warnings());
+    }
+}
+
+/// Building the phantom takes long, and points that vary something else share it.
+#[test]
+fn an_object_that_does_not_change_is_built_once() {
+    let folder = Folder::with(
+        "[set]\n\"object.phantom.spacing_cm\" = 0.6\n\
+        \"robot.start_cm\" = [-15, 0, 0]\n[grid]\n\"object.phantom.features\" = [10, 12]\n\
+        \"sensor.range_cm\" = [2.0, 3.0]\n",
+    );
+    let plan = SweepPlan::load(&folder.path("sweep.toml"), None).unwrap();
+    let drawn: Vec<_> = plan.setups().iter().map(|setup| &setup.drawn).collect();
+    assert!(Arc::ptr_eq(drawn[0], drawn[1]) && Arc::ptr_eq(drawn[2], drawn[3]));
+    assert!(!Arc::ptr_eq(drawn[1], drawn[2]));
+    for (setup, point) in plan.setups().iter().zip(&plan.sweep().points) {
+        let alone = Setup::new(&point.scenario).unwrap();
+        assert_eq!(setup.identity(), alone.identity());
+        assert_eq!(
+            setup.planning.sensor.max_range,
+            *point.scenario.sensor.range_cm
+        );
+        assert_eq!(
+            setup.planning.topology.faces(),
+            alone.planning.topology.faces()
+        );
     }
 }
