@@ -50,6 +50,51 @@ fn no_mismatch_changes_nothing() {
     }
 }
 
+/// What these runs gave before there was any mismatch: time, faults and factors have left every draw
+/// and every sum as it was.
+#[test]
+fn the_numbers_without_mismatch_are_those_of_before() {
+    for (name, observed, pose, feature, nees) in [
+        (
+            "polygon",
+            250,
+            0.2799530946608817,
+            0.16835492893016732,
+            7.030488117618777,
+        ),
+        (
+            "heart",
+            206,
+            23.06232598647083,
+            0.09594336055817348,
+            7.809405910110854,
+        ),
+        (
+            "rotating",
+            240,
+            0.3146725726700494,
+            0.25596802785265965,
+            7.951655978123028,
+        ),
+    ] {
+        let setup = setup(&format!("{name}.toml"), &[]);
+        let runs = summaries(&setup, PlannerName::Predetermined, 3);
+        let run = &runs[2];
+        assert_eq!(run.observed, observed, "{name}");
+        for (found, before) in [
+            (run.pose_error_mean, pose),
+            (run.feature_error_mean, feature),
+            (run.pose_nees_mean.unwrap(), nees),
+        ] {
+            // Not to the last bit: sines differ by that between machines.
+            assert!(
+                (found / before - 1.0).abs() < 1e-9,
+                "{name}: {found}, {before}"
+            );
+        }
+    }
+}
+
 /// The filter cannot know what it is not told, so its errors grow beyond what it claims.
 #[test]
 fn what_the_filter_is_not_told_raises_its_nees() {

@@ -88,7 +88,9 @@ impl Mismatch {
             let message = "there are outliers, and no `outlier_sigma_cm` says how gross they are";
             return Err(document
                 .error_at("mismatch.outlier_probability", message)
-                .with_help("add `outlier_sigma_cm = 1.0`, or many times the measurements' noise"));
+                .with_help(
+                    "add `outlier_sigma_cm`, such as 1.0: many times the noise of a measurement",
+                ));
         }
         let sigma = *noise.rotation_sigma_rad * *self.robot_noise_factor;
         if sigma > PI {

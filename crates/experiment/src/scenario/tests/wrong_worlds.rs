@@ -188,7 +188,7 @@ fn mismatches() {
             "outlier_probability = 0.1",
             "no `outlier_sigma_cm` says how gross",
             "0.1",
-            "add `outlier_sigma_cm = 1.0`",
+            "add `outlier_sigma_cm`, such as 1.0",
         ),
         (
             "outlier_probability = 0.1\noutlier_sigma_cm = 0",
