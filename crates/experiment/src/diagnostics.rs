@@ -5,6 +5,7 @@ mod explain;
 mod key_path;
 mod kind;
 mod overrides;
+mod text_file;
 
 use std::fmt::Display;
 use std::io;
@@ -17,6 +18,7 @@ use thiserror::Error;
 pub(crate) use document::Document;
 pub use explain::nearest;
 pub use kind::FileKind;
+pub(crate) use text_file::read_text;
 
 /// Input that cannot be used: a file that cannot be read, or whose content is wrong.
 ///

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Experiment, Published, PublishedScenario};
+use super::{Experiment, MOST_OVERRIDES, Published, PublishedScenario};
 use crate::diagnostics::{Document, InputError, nearest};
 use crate::scenario::values::Name;
 use crate::scenario::{PlannerName, Scenario};
@@ -39,7 +39,7 @@ impl Place<'_> {
     ) -> Result<ExperimentPlan, InputError> {
         let path = self.folder.join(&experiment.scenario);
         let path = reachable(self.document, &self.key("scenario"), path)?;
-        let scenario = self.overridden(&Scenario::load(&path)?)?;
+        let scenario = self.overridden(experiment, Scenario::load(&path)?)?;
         for (second, planner) in experiment.planners.iter().enumerate() {
             if experiment.planners[..second].contains(planner) {
                 let place = self.key(&format!("planners[{second}]"));
@@ -67,12 +67,25 @@ impl Place<'_> {
     }
 
     /// The scenario with the overrides of this experiment.
-    fn overridden(&self, scenario: &Scenario) -> Result<Scenario, InputError> {
+    fn overridden(
+        &self,
+        experiment: &Experiment,
+        scenario: Scenario,
+    ) -> Result<Scenario, InputError> {
         let set = self.key("set");
-        let overrides = self.document.keys(&set);
-        if overrides.is_empty() {
-            return Ok(scenario.clone());
+        let count = experiment.set.len();
+        if count == 0 {
+            return Ok(scenario);
         }
+        if count > MOST_OVERRIDES {
+            return Err(self
+                .document
+                .error_at(&set, format!("there are {count} overrides"))
+                .with_help(format!(
+                    "write at most {MOST_OVERRIDES}, and the rest into a scenario of its own"
+                )));
+        }
+        let overrides = self.document.keys(&set);
         let merged = scenario.document().with_overrides(self.document, &set);
         let error = match Scenario::from_document(merged.clone()) {
             Err(error) if merged.is_in_base(&error) => error,

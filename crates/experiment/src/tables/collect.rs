@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::ExperimentError;
-use crate::config::{Config, ExperimentPlan, MOST_RUNS, PublishedScenario};
+use crate::config::{Config, ExperimentPlan, MOST_RUNS, MOST_RUNS_IN_ALL, PublishedScenario};
 use crate::diagnostics::{InputError, nearest};
 use crate::metrics::RunSummary;
 use crate::run::{Batch, BatchResult, Interrupt, RunHistory, RunOutcome, Setup};
@@ -137,9 +137,19 @@ impl TablePlan {
                 None => format!("there are {known}"),
             }));
         }
-        let wanted = experiments
+        let wanted: Vec<ExperimentPlan> = experiments
             .into_iter()
-            .filter(|plan| options.only.is_empty() || options.only.contains(&plan.label));
+            .filter(|plan| options.only.is_empty() || options.only.contains(&plan.label))
+            .collect();
+        let in_all = wanted.iter().map(|plan| plan.planners.len()).sum::<usize>() * runs;
+        if in_all > MOST_RUNS_IN_ALL {
+            return Err(
+                about(format!("there are {in_all} runs to do in all")).with_help(format!(
+                    "ask for fewer of each planner, or for fewer experiments with --only: at most \
+                     {MOST_RUNS_IN_ALL} runs"
+                )),
+            );
+        }
         let mut sources = vec![SourceFile {
             path: path.clone(),
             text,
