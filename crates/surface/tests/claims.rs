@@ -77,7 +77,7 @@ fn a_ply_list() {
 fn a_ply_line() {
     let line = "0 ".repeat(1_000_000);
     let bytes = ply("ascii", "1", "1", "uchar int", line.as_bytes());
-    let said = "line 9: it has more than 1048576 bytes";
+    let said = "line 10: it has more than 1048576 bytes";
     refused(MeshFormat::Ply, &bytes, said, MIB);
 }
 
