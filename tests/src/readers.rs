@@ -10,9 +10,11 @@ use std::sync::Arc;
 
 use adslam_experiment::config::{Config, Published};
 use adslam_experiment::diagnostics::InputError;
-use adslam_experiment::log::{EstimateLine, Replay};
+use adslam_experiment::log::{EstimateLine, FilterChoice, Replay};
 use adslam_experiment::run::{RunHistory, Setup};
-use adslam_experiment::scenario::{LengthUnit, Object, Scenario};
+use adslam_experiment::scenario::values::Probability;
+use adslam_experiment::scenario::{EstimatorName, LengthUnit, Named, Object, Scenario};
+use adslam_experiment::sweep::Sweep;
 use adslam_experiment::{ExperimentError, MeshReport};
 use adslam_surface::{Clearance, Fan, MeshFile, MeshFormat, Surface, Topology, pick_features};
 use nalgebra::Point3;
@@ -33,10 +35,12 @@ pub struct Reader {
 const BYTES_FOR_A_BYTE: u64 = 1 << 10;
 
 /// All of them.
-pub const READERS: [Reader; 8] = [
+pub const READERS: [Reader; 9] = [
     // The heart phantom is built, at any spacing that is allowed.
     Reader::new("scenario", scenario, 64 << 20),
     Reader::new("config", config, 1 << 20),
+    // Every point of a sweep is a scenario.
+    Reader::new("sweep", sweep, 64 << 20),
     Reader::new("published", published, 1 << 20),
     // A covariance grows with the square of the features, of which eight bytes make one.
     Reader::new("log", log, 128 << 20),
@@ -120,6 +124,15 @@ fn config(bytes: &[u8]) {
     }
 }
 
+fn sweep(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return;
+    };
+    if let Err(error) = Sweep::parse(text, &repository("sweeps/fuzzed.toml")) {
+        shown(error);
+    }
+}
+
 fn published(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else {
         return;
@@ -130,14 +143,27 @@ fn published(bytes: &[u8]) {
 }
 
 fn log(bytes: &[u8]) {
-    let mut replay = match Replay::new(bytes, Path::new("log.jsonl")) {
+    for &estimator in EstimatorName::ALL {
+        filter(
+            bytes,
+            FilterChoice {
+                estimator,
+                gate_probability: Probability::new(0.99).ok(),
+            },
+        );
+    }
+    filter(bytes, FilterChoice::default());
+}
+
+fn filter(bytes: &[u8], choice: FilterChoice) {
+    let mut replay = match Replay::new(bytes, Path::new("log.jsonl"), choice) {
         Ok(replay) => replay,
         Err(error) => return shown(error),
     };
     loop {
         match replay.advance() {
             Ok(Some(step)) => {
-                let line = EstimateLine::of(step, replay.belief());
+                let line = replay.estimates(step);
                 let json = serde_json::to_string(&line).expect("an estimate as JSON");
                 let again: EstimateLine =
                     serde_json::from_str(&json).expect("an estimate of numbers alone");

@@ -44,7 +44,9 @@ macro_rules! readers {
     };
 }
 
-readers!(scenario, config, published, log, stl, obj, ply, history);
+readers!(
+    scenario, config, sweep, published, log, stl, obj, ply, history
+);
 
 #[test]
 fn every_folder_has_a_reader_and_the_whole_is_small() {

@@ -9,7 +9,7 @@
 use std::fs::{self, File};
 use std::io::BufReader;
 
-use adslam_experiment::log::{EstimateLine, TailPolicy, filter_log};
+use adslam_experiment::log::{EstimateLine, FilterChoice, TailPolicy, filter_log};
 use adslam_experiment::output::AtomicFile;
 use adslam_experiment::run::Interrupt;
 use adslam_tests::fixture;
@@ -43,6 +43,7 @@ fn the_log_gives_the_golden_estimates() {
     let summary = filter_log(
         reader,
         &log,
+        FilterChoice::default(),
         &mut out,
         policy,
         &Interrupt::new(),

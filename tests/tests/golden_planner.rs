@@ -12,7 +12,7 @@ use std::io::BufReader;
 use std::sync::Arc;
 
 use adslam_estimator::{Belief, DirectTrace, FilterNoise, PlannedMeasurement, PosteriorTrace};
-use adslam_experiment::log::Replay;
+use adslam_experiment::log::{FilterChoice, Replay};
 use adslam_experiment::run::Setup;
 use adslam_experiment::scenario::{Scenario, Viewpoints};
 use adslam_models::{Control, FeatureId, Pose, Sensor, predicted_pose};
@@ -73,11 +73,16 @@ impl Golden {
 /// The belief and the filter's noise before the log's step `step`.
 fn belief_before(step: u64) -> (Belief, FilterNoise) {
     let path = fixture("golden/polygon.log.jsonl");
-    let mut replay = Replay::new(BufReader::new(File::open(&path).unwrap()), &path).unwrap();
+    let mut replay = Replay::new(
+        BufReader::new(File::open(&path).unwrap()),
+        &path,
+        FilterChoice::default(),
+    )
+    .unwrap();
     for expected in 2..step {
         assert_eq!(replay.advance().unwrap(), Some(expected));
     }
-    (replay.belief().clone(), *replay.ekf().noise())
+    (replay.belief().clone(), *replay.noise())
 }
 
 #[test]

@@ -12,11 +12,6 @@ use adslam_experiment::diagnostics::FileKind;
 use adslam_experiment::schema::json_schema;
 use serde_json::Value;
 
-const KINDS: [FileKind; 3] = [
-    FileKind::Scenario,
-    FileKind::Configuration,
-    FileKind::Published,
-];
 const TEMPLATE: &str = include_str!("../templates/scenario.md");
 
 /// Writes every file whose content has changed, says which, and returns the exit code.
@@ -41,12 +36,12 @@ pub fn renew(workspace: &Path) -> ExitCode {
 
 /// The files whose content is not what the code makes, with what it makes.
 fn stale(workspace: &Path) -> Result<Vec<(PathBuf, String)>, String> {
-    let schemas: Vec<Value> = KINDS.map(json_schema).into();
+    let schemas: Vec<Value> = FileKind::ALL.map(json_schema).into();
     let mut files = vec![(
         workspace.join("docs/scenario.md"),
         reference::render(TEMPLATE, &schemas)?,
     )];
-    for kind in KINDS {
+    for kind in FileKind::ALL {
         let name = format!("schemas/{}.schema.json", kind.short_name());
         files.push((workspace.join(name), schema_text(kind)));
     }

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use adslam_cli::{FAILURE, exit_code};
 use adslam_experiment::ExperimentError;
-use adslam_experiment::config::Config;
+use adslam_experiment::config::{Config, Selection};
 use adslam_experiment::output::prepare_folder;
 use adslam_experiment::run::{HistoryRecorder, Interrupt, RunHistory, Setup, simulate};
 use adslam_experiment::scenario::{Object, Scenario};
@@ -120,9 +120,11 @@ impl FiguresArgs {
     /// The box plots over many runs, from the tables' own seeds.
     fn draw_boxes(&self, interrupt: &Interrupt) -> Result<(), FigureError> {
         let options = TablesOptions {
-            runs: Some(self.runs),
-            only: self.scenario.labels(),
-            mesh: self.mesh.clone(),
+            selection: Selection {
+                runs: Some(self.runs),
+                only: self.scenario.labels(),
+                mesh: self.mesh.clone(),
+            },
             record: false,
         };
         let plan = TablePlan::load(&paper(), &options).map_err(ExperimentError::from)?;

@@ -8,7 +8,7 @@ mod figures;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use adslam_cli::{TablesArgs, exit_code, stop_on_ctrl_c, tables};
+use adslam_cli::{SelectionArgs, TablesArgs, exit_code, stop_on_ctrl_c, tables};
 use clap::Parser;
 
 use bench_report::BenchReportArgs;
@@ -53,9 +53,11 @@ fn main() -> ExitCode {
         } => {
             let args = TablesArgs {
                 config: paper(),
-                runs: Some(runs),
-                only: scenario.labels(),
-                mesh,
+                selection: SelectionArgs {
+                    runs: Some(runs),
+                    only: scenario.labels(),
+                    mesh,
+                },
                 out,
                 html: true,
                 json: false,

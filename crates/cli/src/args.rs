@@ -3,15 +3,17 @@
 use std::path::PathBuf;
 
 use adslam_experiment::ExperimentError;
+use adslam_experiment::config::Selection;
 use adslam_experiment::diagnostics::FileKind;
 use adslam_experiment::run::Interrupt;
-use adslam_experiment::scenario::{LengthUnit, PlannerName};
+use adslam_experiment::scenario::values::{Probability, ValueError};
+use adslam_experiment::scenario::{EstimatorName, LengthUnit, PlannerName};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use crate::commands;
-use crate::planner::PlannerParser;
+use crate::named::NameParser;
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -24,7 +26,7 @@ use crate::planner::PlannerParser;
                   work failed, 2 the input cannot be used, 130 interrupted.",
     after_help = "Try:\n  adslam run scenarios/polygon.toml --planner combined --seed 1 --out run\n  \
                   adslam tables configs/paper.toml --out results\n  \
-                  adslam check scenarios/*.toml configs/*.toml\n  \
+                  adslam check scenarios/*.toml configs/*.toml sweeps/*.toml\n  \
                   adslam new scenario --out mine.toml"
 )]
 pub struct Arguments {
@@ -75,19 +77,44 @@ pub enum Command {
         --html\n\n\
         Example:\n  adslam tables configs/accumulating.toml --runs 20 --out results/accumulating")]
     Tables(TablesArgs),
+    /// Vary keys of a scenario, run every planner at each point, and compare them
+    #[command(
+        after_help = "Every finished run is kept in a file. Stopped or killed, the same command goes on \
+        with what is missing. Writes into the folder given with --out:\n  \
+        table.md           means with intervals, and which planners differ\n  \
+        runs.*             a row a run, as CSV and as JSON lines\n  \
+        table.*            a row for each planner at each point\n  \
+        comparisons.*      a row for each pair of planners, metric by metric\n  \
+        plan.json, records/, study.lock   what it goes on from\n\n\
+        docs/sweep.md says how intervals and tests are computed.\n\n\
+        Example:\n  adslam sweep sweeps/amplitude.toml --out results/amplitude"
+    )]
+    Sweep(SweepArgs),
+    /// Say whether estimators know how wrong they are: NEES and NIS of many runs
+    #[command(
+        after_help = "Runs every planner of the configuration with each estimator. Stopped at any moment, \
+        the same command goes on. Writes into the folder given with --out:\n  \
+        consistency.md, consistency.json   the verdicts, for people and for machines\n  \
+        verdicts.csv, steps.csv (.jsonl)   as tables, over all steps and step by step\n  \
+        figures/                           NEES and NIS against the step\n\n\
+        Example:\n  adslam consistency configs/consistency.toml --runs 20 --out results/consistency"
+    )]
+    Consistency(ConsistencyArgs),
     /// Say what a mesh file holds and whether it will serve as an object
     #[command(
         after_help = "Reads STL, OBJ and PLY. Exit code 2 where the mesh will not serve, with what \
         to do about it.\n\nExample:\n  adslam mesh heart.stl --unit mm"
     )]
     Mesh(MeshArgs),
-    /// Say whether scenarios and configurations are valid, and what is wrong with them
-    #[command(after_help = "Example:\n  adslam check scenarios/*.toml configs/*.toml")]
+    /// Say whether scenarios, configurations and sweeps are valid, and what is wrong with them
+    #[command(
+        after_help = "Example:\n  adslam check scenarios/*.toml configs/*.toml sweeps/*.toml"
+    )]
     Check(CheckArgs),
-    /// Write a commented scenario or configuration to start from
+    /// Write a commented scenario, configuration or sweep to start from
     #[command(subcommand, after_help = "Example:\n  adslam new scenario")]
     New(NewFile),
-    /// Print the JSON Schema of scenarios or configurations, for editors
+    /// Print the JSON Schema of scenarios, configurations or sweeps, for editors
     #[command(
         after_help = "A TOML file whose first line is `#:schema PATH` is completed and checked by \
         editors with a TOML language server. docs/scenario.md says more.\n\n\
@@ -113,7 +140,7 @@ pub enum Command {
 /// `adslam check`
 #[derive(Debug, Args)]
 pub struct CheckArgs {
-    /// Scenario, configuration and published-table files
+    /// Scenario, configuration, sweep and published-table files
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Answer with one JSON object
@@ -139,12 +166,24 @@ pub enum NewFile {
         #[arg(long, value_name = "FILE")]
         scenario: Option<PathBuf>,
     },
+    /// A sweep: which keys of a scenario are varied, over which values
+    #[command(
+        after_help = "Example:\n  adslam new sweep --scenario scenarios/mine.toml --out sweeps/mine.toml"
+    )]
+    Sweep {
+        /// Where, and how to answer
+        #[command(flatten)]
+        args: NewArgs,
+        /// The scenario to vary; where not given, the scenario.toml beside the sweep
+        #[arg(long, value_name = "FILE")]
+        scenario: Option<PathBuf>,
+    },
 }
 
-/// `adslam new scenario`, and what `adslam new config` has in common with it
+/// `adslam new scenario`, and what the others have in common with it
 #[derive(Debug, Args)]
 pub struct NewArgs {
-    /// The file to write; where not given, scenario.toml or config.toml
+    /// The file to write; where not given, scenario.toml, config.toml or sweep.toml
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace what is there
@@ -164,6 +203,8 @@ pub enum SchemaKind {
     Config,
     /// Published results to compare with
     Published,
+    /// What is varied
+    Sweep,
 }
 
 impl From<SchemaKind> for FileKind {
@@ -172,6 +213,7 @@ impl From<SchemaKind> for FileKind {
             SchemaKind::Scenario => Self::Scenario,
             SchemaKind::Config => Self::Configuration,
             SchemaKind::Published => Self::Published,
+            SchemaKind::Sweep => Self::Sweep,
         }
     }
 }
@@ -182,7 +224,7 @@ pub struct RunArgs {
     /// The scenario file: what the world is
     pub scenario: PathBuf,
     /// The planner
-    #[arg(long, value_name = "NAME", value_parser = PlannerParser)]
+    #[arg(long, value_name = "NAME", value_parser = NameParser::<PlannerName>::new())]
     pub planner: PlannerName,
     /// Seed of all noise; every planner meets the same noise at the same seed
     #[arg(long, default_value_t = 1, value_name = "N")]
@@ -254,6 +296,12 @@ pub struct FilterArgs {
     /// The file of estimates to write
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+    /// The estimator: euler_ekf, so3_ekf or right_invariant_ekf
+    #[arg(long, value_name = "NAME", default_value_t, value_parser = NameParser::<EstimatorName>::new())]
+    pub estimator: EstimatorName,
+    /// Keep out feature measurements less likely than this: the part of good ones that pass, such as 0.999
+    #[arg(long, value_name = "PROBABILITY", value_parser = probability)]
+    pub gate: Option<Probability>,
     /// At a line that cannot be used, keep the estimates up to the line before
     #[arg(long)]
     pub keep_complete: bool,
@@ -267,6 +315,39 @@ pub struct FilterArgs {
 pub struct TablesArgs {
     /// The configuration file: what is run
     pub config: PathBuf,
+    /// What of it is run
+    #[command(flatten)]
+    pub selection: SelectionArgs,
+    /// The folder to write to; made if it does not exist
+    #[arg(long, default_value = "results", value_name = "DIR")]
+    pub out: PathBuf,
+    /// Write report.html too, a page with figures to open in a browser, and replays beside it
+    #[arg(long)]
+    pub html: bool,
+    /// Answer with one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `adslam sweep`
+#[derive(Debug, Args)]
+pub struct SweepArgs {
+    /// The sweep file: what is varied
+    pub sweep: PathBuf,
+    /// Runs of each planner at each point; as the sweep says where not given
+    #[arg(long, value_name = "N")]
+    pub runs: Option<usize>,
+    /// The folder to write to, and to go on in; made if it does not exist
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Answer with one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What of a configuration is run
+#[derive(Debug, Args)]
+pub struct SelectionArgs {
     /// Runs of each planner; as the configuration says where not given
     #[arg(long, value_name = "N")]
     pub runs: Option<usize>,
@@ -276,12 +357,34 @@ pub struct TablesArgs {
     /// An STL, OBJ or PLY file to take for the object of every experiment with a mesh or a phantom
     #[arg(long, value_name = "FILE")]
     pub mesh: Option<PathBuf>,
-    /// The folder to write to; made if it does not exist
-    #[arg(long, default_value = "results", value_name = "DIR")]
+}
+
+impl SelectionArgs {
+    /// As the library takes it.
+    #[must_use]
+    pub fn selection(&self) -> Selection {
+        Selection {
+            runs: self.runs,
+            only: self.only.clone(),
+            mesh: self.mesh.clone(),
+        }
+    }
+}
+
+/// `adslam consistency`
+#[derive(Debug, Args)]
+pub struct ConsistencyArgs {
+    /// The configuration file: what is run
+    pub config: PathBuf,
+    /// What of it is run
+    #[command(flatten)]
+    pub selection: SelectionArgs,
+    /// Only this estimator: euler_ekf, so3_ekf or right_invariant_ekf; may be given again. All where not given
+    #[arg(long = "estimator", value_name = "NAME", value_parser = NameParser::<EstimatorName>::new())]
+    pub estimators: Vec<EstimatorName>,
+    /// The folder to write to and to go on in; made if it does not exist
+    #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Write report.html too, a page with figures to open in a browser, and replays beside it
-    #[arg(long)]
-    pub html: bool,
     /// Answer with one JSON object
     #[arg(long)]
     pub json: bool,
@@ -308,6 +411,11 @@ pub struct MeshArgs {
     pub json: bool,
 }
 
+fn probability(given: &str) -> Result<Probability, ValueError> {
+    // What is no number is answered like one that is out of range.
+    Probability::new(given.parse().unwrap_or(f64::NAN))
+}
+
 impl Command {
     /// Does it.
     ///
@@ -320,6 +428,8 @@ impl Command {
             Self::Export(args) => commands::export(args),
             Self::Filter(args) => commands::filter(args, interrupt),
             Self::Tables(args) => commands::tables(args, interrupt),
+            Self::Sweep(args) => commands::sweep(args, interrupt),
+            Self::Consistency(args) => commands::consistency(args, interrupt),
             Self::Mesh(args) => commands::mesh(args),
             Self::Check(args) => commands::check(args),
             Self::New(file) => commands::new(file),

@@ -5,17 +5,17 @@ mod args;
 mod commands;
 mod exit;
 mod interrupt;
+mod named;
 mod paths;
-mod planner;
 mod print;
 mod progress;
 
 pub use args::{
-    Arguments, CheckArgs, Command, ExportArgs, ExportFormat, FilterArgs, MeshArgs, NewArgs,
-    NewFile, ReplayArgs, RunArgs, SchemaKind, TablesArgs,
+    Arguments, CheckArgs, Command, ConsistencyArgs, ExportArgs, ExportFormat, FilterArgs, MeshArgs,
+    NewArgs, NewFile, ReplayArgs, RunArgs, SchemaKind, SelectionArgs, SweepArgs, TablesArgs,
 };
 pub use commands::{
-    check, completions, export, filter, mesh, new, replay, run, schema, schema_text, tables,
+    check, completions, export, filter, mesh, new, replay, run, schema, schema_text, sweep, tables,
 };
 pub use exit::{BAD_INPUT, FAILURE, INTERRUPTED, exit_code};
 pub use interrupt::stop_on_ctrl_c;

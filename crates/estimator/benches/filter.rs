@@ -13,7 +13,8 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use adslam_estimator::{
-    Ekf, FeatureMeasurement, Measurements, PairMeasurement, Parallelism, StructureMeasurements,
+    Ekf, Estimator, FeatureMeasurement, Measurements, PairMeasurement, Parallelism,
+    StructureMeasurements,
 };
 use adslam_models::FeatureId;
 use common::{CASES, Case, NOISE, Step, belief};

@@ -1,7 +1,7 @@
 //! What the filter believes.
 
-use adslam_models::{POSE_DIM, Pose, State};
-use nalgebra::{Matrix6, Point3, Vector3, Vector6};
+use adslam_models::{Pose, State};
+use nalgebra::{Matrix6, Point3};
 
 use crate::{Covariance, EstimatorError};
 
@@ -10,7 +10,7 @@ use crate::{Covariance, EstimatorError};
 pub struct Belief {
     /// χ̂, the estimated pose and features.
     pub state: State,
-    /// P, the covariance of the error of `state`.
+    /// P, the covariance of the error of `state`: of [`Estimator::error`](crate::Estimator::error).
     pub covariance: Covariance,
 }
 
@@ -70,22 +70,5 @@ impl Belief {
             found: self.covariance.feature_count(),
             expected: self.state.features.len(),
         })
-    }
-
-    /// χ̂ ← χ̂ + K y, given entry by entry in the order of the state, with the angles wrapped.
-    ///
-    /// # Errors
-    /// [`EstimatorError::NotFinite`] where the correction is not.
-    pub(crate) fn correct(&mut self, delta: impl Fn(usize) -> f64) -> Result<(), EstimatorError> {
-        if !(0..self.state.dim()).all(|i| delta(i).is_finite()) {
-            return Err(EstimatorError::NotFinite {
-                what: "correction of the state",
-            });
-        }
-        self.state.pose = self.state.pose.plus(&Vector6::from_fn(|i, _| delta(i)));
-        for (j, p) in self.state.features.iter_mut().enumerate() {
-            *p += Vector3::from_fn(|a, _| delta(POSE_DIM + 3 * j + a));
-        }
-        Ok(())
     }
 }

@@ -4,8 +4,9 @@ use adslam_models::{FeatureId, MotionJacobian, POSE_DIM, feature_offset, state_d
 use faer::{Mat, MatMut, MatRef};
 use nalgebra::{Matrix3, Matrix6};
 
+use crate::buffer::Buffer;
 use crate::linear_algebra::{
-    cholesky, copy_transposed, mirror_lower, solve_lower, squared_norm, subtract_gram,
+    add_product_lower, cholesky, copy_transposed, mirror_lower, solve_lower, squared_norm,
     symmetric_times,
 };
 use crate::{EstimatorError, FilterNoise, Parallelism};
@@ -132,7 +133,42 @@ impl Covariance {
     /// P − V Vᵀ with V = P Hᵀ L⁻ᵀ and L Lᵀ = S: the update of Algorithm 1 with K = P Hᵀ S⁻¹, on the lower
     /// triangle alone. [`Self::complete`] must follow, after any number of these.
     pub(crate) fn subtract_gram(&mut self, v: MatRef<'_, f64>, parallelism: Parallelism) {
-        subtract_gram(self.matrix.as_mut(), v, parallelism);
+        add_product_lower(self.matrix.as_mut(), -1.0, v, v, parallelism);
+    }
+
+    /// D P Dᵀ on the lower triangle, where D − I has only columns of Θ, given as blocks: see
+    /// [`ErrorState::reset`](crate::ErrorState::reset). [`Self::complete`] must follow.
+    pub(crate) fn reset(
+        &mut self,
+        blocks: &[Matrix3<f64>],
+        [left, right]: [&mut Buffer; 2],
+        parallelism: Parallelism,
+    ) {
+        // With U = D − I, V = P_:Θ and W = V + U P_ΘΘ/2 that is P + U Wᵀ + W Uᵀ.
+        let dim = self.dim();
+        let of_angles = self.pose().fixed_view::<3, 3>(0, 0).into_owned();
+        left.reshape(dim, 6);
+        right.reshape(dim, 6);
+        self.copy_columns(0, right.subcols_mut(0, 3), Parallelism::Sequential);
+        for (k, u) in blocks.iter().enumerate() {
+            let half = u * of_angles * 0.5;
+            for i in 0..3 {
+                for j in 0..3 {
+                    let (row, w) = (3 * k + i, right[(3 * k + i, j)] + half[(i, j)]);
+                    left[(row, j)] = u[(i, j)];
+                    left[(row, 3 + j)] = w;
+                    right[(row, j)] = w;
+                    right[(row, 3 + j)] = u[(i, j)];
+                }
+            }
+        }
+        add_product_lower(
+            self.matrix.as_mut(),
+            1.0,
+            left.as_ref(),
+            right.as_ref(),
+            parallelism,
+        );
     }
 
     /// Makes the matrix symmetric again after its lower triangle changed.

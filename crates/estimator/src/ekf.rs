@@ -1,12 +1,17 @@
 //! Algorithm 1: propagation and update.
 
-use adslam_models::{Control, FeatureId, motion_jacobian, predicted_pose};
-use nalgebra::Vector3;
+use std::marker::PhantomData;
+
+use adslam_models::{Control, FeatureId, State, motion_jacobian, predicted_pose};
+use nalgebra::{Matrix3, Vector3};
 
 use crate::feature_update::FeatureUpdate;
 use crate::structure_update::StructureUpdate;
 use crate::workspace::Workspace;
-use crate::{Belief, EstimatorError, FilterNoise, Parallelism, StructureMeasurements};
+use crate::{
+    Belief, ErrorState, Estimator, EstimatorError, EulerError, FilterNoise, Parallelism,
+    StructureMeasurements, UpdateReport,
+};
 
 /// One feature as the robot's sensor measured it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,34 +31,57 @@ pub struct Measurements<'a> {
     pub structure: StructureMeasurements<'a>,
 }
 
-/// The extended Kalman filter of Algorithm 1.
+/// The extended Kalman filter of Algorithm 1, with the error coordinates `E`.
 ///
 /// It keeps the memory that its steps need: from the second step on, states of the same size and
 /// structure measurements of the same pairs, on one thread, allocate nothing. For a state of n
 /// entries that is room for about 200 n numbers, less than a tenth of a covariance for 1000
 /// features, and for a graph of some of the pairs three M × M matrices more.
 #[derive(Clone, Debug)]
-pub struct Ekf {
+pub struct Ekf<E = EulerError> {
     noise: FilterNoise,
+    gate: Option<f64>,
     parallelism: Parallelism,
     workspace: Workspace,
     features: FeatureUpdate,
     structure: StructureUpdate,
+    /// K y, in the paper's coordinates.
+    delta: Vec<f64>,
+    /// χ̂ before the correction.
+    predicted: State,
+    /// D − I.
+    reset: Vec<Matrix3<f64>>,
+    coordinates: PhantomData<E>,
 }
 
 impl Ekf {
-    /// A filter that assumes this noise.
+    /// The paper's filter, with errors of Euler angles, that assumes this noise.
     ///
     /// # Errors
     /// A sigma that cannot be used, see [`FilterNoise::validate`].
     pub fn new(noise: FilterNoise) -> Result<Self, EstimatorError> {
+        Self::in_coordinates(noise)
+    }
+}
+
+impl<E: ErrorState> Ekf<E> {
+    /// A filter with the errors of `E` that assumes this noise.
+    ///
+    /// # Errors
+    /// A sigma that cannot be used, see [`FilterNoise::validate`].
+    pub fn in_coordinates(noise: FilterNoise) -> Result<Self, EstimatorError> {
         noise.validate()?;
         Ok(Self {
             noise,
+            gate: None,
             parallelism: Parallelism::default(),
             workspace: Workspace::default(),
             features: FeatureUpdate::default(),
             structure: StructureUpdate::default(),
+            delta: Vec::new(),
+            predicted: State::default(),
+            reset: Vec::new(),
+            coordinates: PhantomData,
         })
     }
 
@@ -66,20 +94,62 @@ impl Ekf {
         }
     }
 
+    /// The same filter with a gate: a feature measurement is used only if its squared distance from what
+    /// is expected, yᵀS⁻¹y with S its covariance given the prediction, is at most this; χ² with 3
+    /// degrees of freedom if all is well. Without one all are used.
+    ///
+    /// # Errors
+    /// [`EstimatorError::BadGate`] if it is not a number above zero.
+    pub fn with_gate(self, gate: Option<f64>) -> Result<Self, EstimatorError> {
+        if let Some(gate) = gate.filter(|gate| gate.is_nan() || *gate <= 0.0) {
+            return Err(EstimatorError::BadGate(gate));
+        }
+        Ok(Self { gate, ..self })
+    }
+
     /// The noise that the filter assumes.
     #[must_use]
     pub fn noise(&self) -> &FilterNoise {
         &self.noise
     }
 
-    /// Propagation: χ̂ ← f(χ̂, u, 0), P ← F P Fᵀ + G Q Gᵀ.
-    ///
-    /// `feature_motion` is what the filter knows of each feature's motion, r_t t + r_d d, cm, world.
-    ///
-    /// # Errors
-    /// A covariance that is not of the state's features, a wrong number of displacements, or NaN or
-    /// infinity in an input.
-    pub fn predict(
+    /// Moves the estimate by the correction, and the covariance with it.
+    fn correct(
+        &mut self,
+        belief: &mut Belief,
+        parallelism: Parallelism,
+    ) -> Result<(), EstimatorError> {
+        if !self.delta.iter().all(|x| x.is_finite()) {
+            return Err(EstimatorError::NotFinite {
+                what: "correction of the state",
+            });
+        }
+        self.predicted.pose = belief.state.pose;
+        self.predicted.features.clone_from(&belief.state.features);
+        E::retract(&mut belief.state, &self.delta);
+        E::reset(&self.predicted, &belief.state, &mut self.reset);
+        if self.reset.is_empty() {
+            return Ok(());
+        }
+        if !self.reset.iter().flatten().all(|x| x.is_finite()) {
+            return Err(EstimatorError::NotFinite {
+                what: "orientation in Euler angles (pitch ±90°)",
+            });
+        }
+        let Workspace {
+            selection, columns, ..
+        } = &mut self.workspace;
+        belief
+            .covariance
+            .reset(&self.reset, [selection, columns], parallelism);
+        Ok(())
+    }
+}
+
+impl<E: ErrorState> Estimator for Ekf<E> {
+    // The chain rule makes it the same in any coordinates, so it is done in the paper's, where F touches the
+    // pose alone.
+    fn predict(
         &self,
         belief: &mut Belief,
         control: &Control,
@@ -93,36 +163,48 @@ impl Ekf {
         Ok(())
     }
 
-    /// Update with everything measured at this step.
-    ///
-    /// Equal to Algorithm 1 with all rows stacked: the feature measurements are linearised at the
-    /// predicted state, and the structure measurements, being linear, may follow.
-    ///
-    /// # Errors
-    /// A covariance that is not of the state's features or has broken down, measurements of unknown or
-    /// repeated features, or non-finite numbers; the belief must then not be used further.
-    pub fn update(
+    // Equal to Algorithm 1 with all rows stacked: the feature measurements are linearised at the predicted
+    // state, and the structure measurements, being linear, may follow.
+    fn update(
         &mut self,
         belief: &mut Belief,
         measurements: &Measurements<'_>,
-    ) -> Result<(), EstimatorError> {
+    ) -> Result<UpdateReport, EstimatorError> {
         belief.check_sizes()?;
         let parallelism = self.parallelism.for_dim(belief.covariance.dim());
-        self.features.apply(
+        self.delta.clear();
+        self.delta.resize(belief.state.dim(), 0.0);
+        let features = self.features.apply(
             belief,
+            &mut self.delta,
             measurements.features,
-            self.noise.feature_measurement_sigma,
+            (self.noise.feature_measurement_sigma, self.gate),
             &mut self.workspace,
             parallelism,
         )?;
-        self.structure.apply(
+        let structure = self.structure.apply(
             belief,
+            &mut self.delta,
             &measurements.structure,
             self.noise.structure_measurement_sigma,
             &mut self.workspace,
             parallelism,
         )?;
-        belief.covariance.complete(parallelism)
+        self.correct(belief, parallelism)?;
+        belief.covariance.complete(parallelism)?;
+        Ok(UpdateReport {
+            features,
+            structure,
+            rejected: self.rejected().len(),
+        })
+    }
+
+    fn rejected(&self) -> &[FeatureId] {
+        self.features.rejected()
+    }
+
+    fn error(&self, estimate: &State, truth: &State) -> Vec<f64> {
+        E::error(estimate, truth)
     }
 }
 

@@ -68,6 +68,9 @@ pub enum EstimatorError {
     /// A set of visible features that was added in an earlier decision.
     #[error("the set of visible features is not of this decision; add it anew after `prepare`")]
     SetOfAnotherDecision,
+    /// A gate that would let nothing through, or is no number.
+    #[error("the gate of the feature measurements is {0}; it must be a number above 0")]
+    BadGate(f64),
     /// A noise sigma that cannot be used.
     #[error("the sigma of {what} is {value}; it must be {requirement}")]
     BadSigma {

@@ -4,18 +4,20 @@ use adslam_models::{
     FeatureId, FeatureMeasurementJacobians, POSE_DIM, Pose, feature_measurement,
     feature_measurement_jacobians, feature_offset,
 };
-use nalgebra::{Matrix3, Point3, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix3x6, Matrix6, Point3, Vector3, Vector6};
 
 use crate::ekf::check_feature;
 use crate::linear_algebra::set_product;
 use crate::workspace::{Workspace, add_scaled, block_rows};
-use crate::{Belief, Covariance, EstimatorError, FeatureMeasurement, Parallelism};
+use crate::{Belief, Covariance, EstimatorError, FeatureMeasurement, Nis, Parallelism};
+
+/// What S is called in errors.
+const INNOVATION_COVARIANCE: &str = "innovation covariance of the feature measurements";
 
 /// The measurement of one feature, linearised.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sighting {
-    /// Where the feature begins in the state.
-    offset: usize,
+    feature: FeatureId,
     /// H, body frame.
     jacobian: FeatureMeasurementJacobians,
     /// O, cm², body frame.
@@ -35,11 +37,35 @@ impl Sighting {
         z: Option<Vector3<f64>>,
     ) -> Self {
         Self {
-            offset: feature_offset(feature),
+            feature,
             jacobian: feature_measurement_jacobians(pose, point),
             noise,
             innovation: z.map_or_else(Vector3::zeros, |z| z - feature_measurement(pose, point)),
         }
+    }
+
+    /// Where the feature begins in the state.
+    fn offset(&self) -> usize {
+        feature_offset(self.feature)
+    }
+
+    /// yᵀS⁻¹y of this measurement alone, `pose` being the pose's part of the covariance; nothing if S is not
+    /// positive definite.
+    fn squared_distance(&self, covariance: &Covariance, pose: &Matrix6<f64>) -> Option<f64> {
+        let FeatureMeasurementJacobians {
+            pose: of_pose,
+            feature: of_feature,
+        } = self.jacobian;
+        let offset = self.offset();
+        let cross = Matrix3x6::from_fn(|i, k| covariance.entry(offset + i, k));
+        let mixed = of_feature * cross * of_pose.transpose();
+        let s = of_pose * pose * of_pose.transpose()
+            + mixed
+            + mixed.transpose()
+            + of_feature * covariance.feature(self.feature) * of_feature.transpose()
+            + self.noise;
+        let whitened = s.cholesky()?.solve(&self.innovation);
+        Some(self.innovation.dot(&whitened))
     }
 }
 
@@ -49,21 +75,26 @@ pub(crate) struct FeatureUpdate {
     sightings: Vec<Sighting>,
     /// Which features were measured already.
     seen: Vec<bool>,
+    /// Whose measurements the gate kept out.
+    rejected: Vec<FeatureId>,
 }
 
 impl FeatureUpdate {
-    /// Conditions the belief on the measurements, with H at the present state. Of the covariance only
-    /// the lower triangle is brought up to date.
+    /// Conditions the covariance on the measurements, with H at the present state, and adds the correction
+    /// to `delta`. Of the covariance only the lower triangle is brought up to date. `gate` is the largest
+    /// squared distance of a measurement from what is expected that is believed.
     pub(crate) fn apply(
         &mut self,
         belief: &mut Belief,
+        delta: &mut [f64],
         measurements: &[FeatureMeasurement],
-        sigma: f64,
+        (sigma, gate): (f64, Option<f64>),
         workspace: &mut Workspace,
         parallelism: Parallelism,
-    ) -> Result<(), EstimatorError> {
+    ) -> Result<Nis, EstimatorError> {
+        self.rejected.clear();
         if measurements.is_empty() {
-            return Ok(());
+            return Ok(Nis::default());
         }
         self.check(belief, measurements)?;
         let noise = Matrix3::identity() * (sigma * sigma);
@@ -75,13 +106,49 @@ impl FeatureUpdate {
                 .iter()
                 .map(|m| Sighting::new(pose, m.feature, &features[m.feature.0], noise, Some(m.z))),
         );
+        if let Some(gate) = gate {
+            self.close_gate(&belief.covariance, gate)?;
+        }
         condition_on_features(
             &mut belief.covariance,
             &self.sightings,
             workspace,
             parallelism,
         )?;
-        belief.correct(|i| workspace.correction(i))
+        workspace.add_correction(delta);
+        Ok(Nis {
+            value: workspace.nis(),
+            dof: 3 * self.sightings.len(),
+        })
+    }
+
+    /// Takes out the measurements, each judged by itself, that are farther than the gate from what was
+    /// expected.
+    fn close_gate(&mut self, covariance: &Covariance, gate: f64) -> Result<(), EstimatorError> {
+        let pose = covariance.pose();
+        let mut broken = false;
+        self.rejected.reserve(self.seen.len());
+        self.sightings.retain(|sighting| {
+            let distance = sighting.squared_distance(covariance, &pose);
+            broken |= distance.is_none();
+            let believed = distance.is_some_and(|distance| distance <= gate);
+            if !believed {
+                self.rejected.push(sighting.feature);
+            }
+            believed
+        });
+        if broken {
+            return Err(EstimatorError::NotPositiveDefinite {
+                matrix: INNOVATION_COVARIANCE,
+                dim: 3,
+            });
+        }
+        Ok(())
+    }
+
+    /// The features whose measurements the gate kept out.
+    pub(crate) fn rejected(&self) -> &[FeatureId] {
+        &self.rejected
     }
 
     fn check(
@@ -124,11 +191,7 @@ pub(crate) fn condition_on_features(
         workspace.start_block(3 * block.len());
         set_products(covariance, block, workspace);
         set_innovations(block, workspace);
-        workspace.condition(
-            covariance,
-            "innovation covariance of the feature measurements",
-            parallelism,
-        )?;
+        workspace.condition(covariance, INNOVATION_COVARIANCE, parallelism)?;
     }
     Ok(())
 }
@@ -154,7 +217,7 @@ fn set_products(covariance: &Covariance, block: &[Sighting], workspace: &mut Wor
     workspace.columns.reshape(dim, 3);
     for (m, sighting) in block.iter().enumerate() {
         let columns = workspace.columns.as_mut();
-        covariance.copy_columns(sighting.offset, columns, Parallelism::Sequential);
+        covariance.copy_columns(sighting.offset(), columns, Parallelism::Sequential);
         for a in 0..3 {
             let product = workspace.products.col_as_slice_mut(3 * m + a);
             for k in 0..3 {
@@ -169,9 +232,7 @@ fn set_products(covariance: &Covariance, block: &[Sighting], workspace: &mut Wor
 fn set_innovations(block: &[Sighting], workspace: &mut Workspace) {
     let corrected_pose = Vector6::from_fn(|k, _| workspace.correction(k));
     for (m, sighting) in block.iter().enumerate() {
-        let Sighting {
-            offset, jacobian, ..
-        } = *sighting;
+        let (offset, jacobian) = (sighting.offset(), &sighting.jacobian);
         let corrected = Vector3::from_fn(|k, _| workspace.correction(offset + k));
         let innovation =
             sighting.innovation - jacobian.pose * corrected_pose - jacobian.feature * corrected;

@@ -1,7 +1,9 @@
-//! The dense extended Kalman filter of Algorithm 1, for a robot and the features of an object that
-//! moves and deforms.
+//! Dense extended Kalman filters, Algorithm 1 in several error coordinates, for a robot and the features of
+//! an object that moves and deforms.
 //!
-//! [`Ekf`] propagates and updates a [`Belief`]: the estimated state and its joint [`Covariance`].
+//! An [`Estimator`] propagates and updates a [`Belief`]: the estimated state and its joint
+//! [`Covariance`]. There is one, [`Ekf`], over the error that an [`ErrorState`] defines: the paper's Euler
+//! angles, SO(3), or the right-invariant error of robot and features together.
 //! [`PosteriorTrace`] tells a planner what trace an action would leave (eqs. 6, 7).
 //!
 //! The filter sees controls, the known motion of the features and measurements, never the truth.
@@ -12,6 +14,8 @@ mod buffer;
 mod covariance;
 mod ekf;
 mod error;
+mod error_state;
+mod estimator;
 mod feature_update;
 mod linear_algebra;
 mod noise;
@@ -24,6 +28,8 @@ pub use belief::Belief;
 pub use covariance::Covariance;
 pub use ekf::{Ekf, FeatureMeasurement, Measurements};
 pub use error::EstimatorError;
+pub use error_state::{ErrorState, EulerError, RightInvariantError, So3Error};
+pub use estimator::{Estimator, EstimatorKind, Nis, UpdateReport};
 pub use noise::FilterNoise;
 pub use objective::{DirectTrace, PlannedMeasurement, PosteriorTrace, SetId};
 pub use parallel::Parallelism;

@@ -92,30 +92,37 @@ pub(crate) fn whiten_and_accumulate(
     matmul(sum.rb_mut(), Accum::Add, w.rb(), b, 1.0, Par::Seq);
 }
 
-/// The lower triangle of P ← P − V Vᵀ; the upper one is left as it is.
-pub(crate) fn subtract_gram(p: MatMut<'_, f64>, v: MatRef<'_, f64>, parallelism: Parallelism) {
+/// The lower triangle of P ← P + α A Bᵀ, where that is symmetric; the upper one is left as it is.
+pub(crate) fn add_product_lower(
+    p: MatMut<'_, f64>,
+    alpha: f64,
+    a: MatRef<'_, f64>,
+    b: MatRef<'_, f64>,
+    parallelism: Parallelism,
+) {
     let Some(middle) = split(p.nrows(), TILE, KERNEL_ROWS) else {
         triangular::matmul(
             p,
             BlockStructure::TriangularLower,
             Accum::Add,
-            v,
+            a,
             BlockStructure::Rectangular,
-            v.transpose(),
+            b.transpose(),
             BlockStructure::Rectangular,
-            -1.0,
+            alpha,
             Par::Seq,
         );
         return;
     };
     let (top_left, _, bottom_left, bottom_right) = p.split_at_mut(middle, middle);
-    let (top, bottom) = v.split_at_row(middle);
+    let (a_top, a_bottom) = a.split_at_row(middle);
+    let (b_top, b_bottom) = b.split_at_row(middle);
     parallelism.join(
-        || subtract_product(bottom_left, bottom, top, parallelism),
+        || add_product(bottom_left, alpha, a_bottom, b_top, parallelism),
         || {
             parallelism.join(
-                || subtract_gram(top_left, top, parallelism),
-                || subtract_gram(bottom_right, bottom, parallelism),
+                || add_product_lower(top_left, alpha, a_top, b_top, parallelism),
+                || add_product_lower(bottom_right, alpha, a_bottom, b_bottom, parallelism),
             );
         },
     );
@@ -142,9 +149,10 @@ pub(crate) fn set_gram(mut m: MatMut<'_, f64>, a: MatRef<'_, f64>) {
     mirror_lower(m, Parallelism::Sequential);
 }
 
-/// M ← M − A Bᵀ.
-pub(crate) fn subtract_product(
+/// M ← M + α A Bᵀ.
+pub(crate) fn add_product(
     m: MatMut<'_, f64>,
+    alpha: f64,
     a: MatRef<'_, f64>,
     b: MatRef<'_, f64>,
     parallelism: Parallelism,
@@ -153,18 +161,18 @@ pub(crate) fn subtract_product(
         let (top, bottom) = m.split_at_row_mut(middle);
         let (a_top, a_bottom) = a.split_at_row(middle);
         parallelism.join(
-            || subtract_product(top, a_top, b, parallelism),
-            || subtract_product(bottom, a_bottom, b, parallelism),
+            || add_product(top, alpha, a_top, b, parallelism),
+            || add_product(bottom, alpha, a_bottom, b, parallelism),
         );
     } else if let Some(middle) = split(m.ncols(), TILE, KERNEL_ROWS) {
         let (left, right) = m.split_at_col_mut(middle);
         let (b_left, b_right) = b.split_at_row(middle);
         parallelism.join(
-            || subtract_product(left, a, b_left, parallelism),
-            || subtract_product(right, a, b_right, parallelism),
+            || add_product(left, alpha, a, b_left, parallelism),
+            || add_product(right, alpha, a, b_right, parallelism),
         );
     } else {
-        matmul(m, Accum::Add, a, b.transpose(), -1.0, Par::Seq);
+        matmul(m, Accum::Add, a, b.transpose(), alpha, Par::Seq);
     }
 }
 

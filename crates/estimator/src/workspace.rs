@@ -32,6 +32,8 @@ pub(crate) struct Workspace {
     pub(crate) selection: Buffer,
     /// Columns of P.
     pub(crate) columns: Buffer,
+    /// yᵀS⁻¹y of the blocks since [`Self::prepare`].
+    nis: f64,
 }
 
 impl Workspace {
@@ -45,6 +47,7 @@ impl Workspace {
         self.growth.reshape(block, carried);
         self.carried.reshape(dim, carried);
         self.carried.fill(0.0);
+        self.nis = 0.0;
     }
 
     /// Room for a block of `rows` measured numbers.
@@ -52,6 +55,17 @@ impl Workspace {
         self.products.reshape(self.carried.nrows(), rows);
         self.innovation_covariance.reshape(rows, rows);
         self.growth.reshape(rows, self.carried.ncols());
+    }
+
+    /// yᵀS⁻¹y of all that was conditioned on since [`Self::prepare`]: each block's innovation is that given
+    /// the blocks before it, so their sum is that of all rows together.
+    pub(crate) fn nis(&self) -> f64 {
+        self.nis
+    }
+
+    /// Adds the correction to that of measurements before.
+    pub(crate) fn add_correction(&self, delta: &mut [f64]) {
+        add_scaled(delta, 1.0, self.carried.col_as_slice(0));
     }
 
     /// The correction of one entry of the state.
@@ -70,6 +84,8 @@ impl Workspace {
         let mut factor = self.innovation_covariance.as_mut();
         cholesky(factor.rb_mut(), name)?;
         solve_lower(factor.as_ref(), self.growth.as_mut());
+        let whitened = self.growth.col_as_slice(0);
+        self.nis += whitened.iter().map(|y| y * y).sum::<f64>();
         whiten_and_accumulate(
             factor.as_ref(),
             self.products.as_mut(),

@@ -3,7 +3,8 @@
 mod common;
 
 use adslam_estimator::{
-    Belief, Ekf, FeatureMeasurement, Measurements, PairMeasurement, StructureMeasurements,
+    Belief, Ekf, Estimator, FeatureMeasurement, Measurements, PairMeasurement,
+    StructureMeasurements,
 };
 use adslam_models::{Control, FeatureId, Pose, feature_measurement};
 use common::{NOISE, assert_close, covariance_matrix};

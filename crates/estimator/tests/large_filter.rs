@@ -10,7 +10,7 @@ mod common;
 mod synthetic;
 
 use adslam_estimator::{
-    Belief, Ekf, Measurements, PairMeasurement, Parallelism, StructureMeasurements,
+    Belief, Ekf, Estimator, Measurements, PairMeasurement, Parallelism, StructureMeasurements,
 };
 use adslam_models::{Control, FeatureId, POSE_DIM, State, feature_offset};
 use common::{NOISE, assert_close, covariance_matrix};

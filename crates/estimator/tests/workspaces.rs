@@ -8,8 +8,8 @@
 mod synthetic;
 
 use adslam_estimator::{
-    Belief, DirectTrace, Ekf, Measurements, PairMeasurement, PlannedMeasurement, PosteriorTrace,
-    StructureMeasurements,
+    Belief, DirectTrace, Ekf, Estimator, Measurements, PairMeasurement, PlannedMeasurement,
+    PosteriorTrace, StructureMeasurements,
 };
 use adslam_models::{Control, FeatureId};
 use allocation_counter::{AllocationInfo, measure};
@@ -22,7 +22,9 @@ fn cases() -> impl Iterator<Item = Case> {
 
 /// Counts what one step allocates.
 fn count(step: &Step, ekf: &mut Ekf, belief: &mut Belief) -> AllocationInfo {
-    measure(|| step.run(ekf, belief).unwrap())
+    measure(|| {
+        step.run(ekf, belief).unwrap();
+    })
 }
 
 #[test]
@@ -71,7 +73,10 @@ fn a_graph_of_pairs_allocates_where_it_changes_only() {
             features: &[],
             structure: StructureMeasurements::Pairs(pairs),
         };
-        measure(|| ekf.update(&mut belief, &measurements).unwrap()).count_total
+        measure(|| {
+            ekf.update(&mut belief, &measurements).unwrap();
+        })
+        .count_total
     };
     update(&pairs);
     assert_eq!(update(&pairs), 0);

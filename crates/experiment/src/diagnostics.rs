@@ -4,6 +4,7 @@ mod document;
 mod explain;
 mod key_path;
 mod kind;
+mod overlay;
 mod overrides;
 mod text_file;
 
@@ -17,7 +18,9 @@ use thiserror::Error;
 
 pub(crate) use document::Document;
 pub use explain::nearest;
+pub(crate) use key_path::json_at;
 pub use kind::FileKind;
+pub(crate) use overlay::Layer;
 pub(crate) use text_file::read_text;
 
 /// Input that cannot be used: a file that cannot be read, or whose content is wrong.

@@ -80,6 +80,16 @@ impl ExperimentError {
         matches!(self, Self::Input(_))
     }
 
+    /// An error where some of many runs were not done: [`Self::Interrupted`] where the user stopped them, else
+    /// [`Self::Runs`] where some failed.
+    pub(crate) fn unless_complete(interrupted: bool, failures: Vec<String>) -> Result<(), Self> {
+        match (interrupted, failures.is_empty()) {
+            (true, _) => Err(Self::Interrupted),
+            (false, true) => Ok(()),
+            (false, false) => Err(Self::Runs { failures }),
+        }
+    }
+
     /// Turns what a writer says into the error that names its file.
     pub(crate) fn output<E: Into<io::Error>>(path: &Path) -> impl FnOnce(E) -> Self + '_ {
         move |cause| Self::Output {

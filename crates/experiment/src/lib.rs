@@ -2,6 +2,7 @@
 //! the runner, metrics, logs and tables.
 
 pub mod config;
+pub mod consistency;
 pub mod diagnostics;
 mod error;
 pub mod log;
@@ -11,6 +12,9 @@ pub mod output;
 pub mod run;
 pub mod scenario;
 pub mod schema;
+pub mod statistics;
+pub mod study;
+pub mod sweep;
 pub mod tables;
 pub mod world;
 

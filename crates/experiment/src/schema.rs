@@ -14,9 +14,10 @@ use serde_json::Value;
 use crate::config::{ConfigFile, Published};
 use crate::diagnostics::FileKind;
 use crate::scenario::Scenario;
+use crate::sweep::SweepFile;
 
 pub(crate) use advice::Advice;
-pub(crate) use overrides::overrides;
+pub(crate) use overrides::{lists_of_overrides, overrides};
 
 /// The JSON Schema of a kind of file, in draft 7, which the editors of TOML understand.
 ///
@@ -29,6 +30,7 @@ pub fn json_schema(kind: FileKind) -> Value {
         FileKind::Scenario => root_schema::<Scenario>(),
         FileKind::Configuration => root_schema::<ConfigFile>(),
         FileKind::Published => root_schema::<Published>(),
+        FileKind::Sweep => root_schema::<SweepFile>(),
     }
 }
 
@@ -75,6 +77,22 @@ mod tests {
     }
 
     #[test]
+    fn a_grid_has_lists_of_what_a_key_may_be() {
+        let schema = json_schema(FileKind::Sweep);
+        let sigma = &schema["properties"]["grid"]["properties"]["noise.rotation_sigma_rad"];
+        assert_eq!(sigma["items"]["minimum"], 0.0);
+        assert_eq!(
+            (&sigma["minItems"], &sigma["uniqueItems"]),
+            (&1.into(), &true.into())
+        );
+        let elements = &schema["properties"]["grid"]["patternProperties"];
+        let element = &elements[r"^object\.points\.positions_cm\[\d+\]$"];
+        assert_eq!(element["items"]["minItems"], 3);
+        let set = &schema["definitions"]["SweepPoint"]["properties"]["set"];
+        assert_eq!(set["properties"]["sensor.range_cm"]["minimum"], 1e-9);
+    }
+
+    #[test]
     fn choices_are_told_apart_by_their_keys() {
         let definitions = &json_schema(FileKind::Scenario)["definitions"];
         let object = &definitions["Object"];
@@ -89,11 +107,7 @@ mod tests {
 
     #[test]
     fn nothing_is_null_which_toml_has_not() {
-        for kind in [
-            FileKind::Scenario,
-            FileKind::Configuration,
-            FileKind::Published,
-        ] {
+        for kind in FileKind::ALL {
             let text = json_schema(kind).to_string();
             assert!(!text.contains("null"), "{text}");
         }

@@ -1,6 +1,7 @@
 //! Why a figure could not be made.
 
 use std::convert::Infallible;
+use std::io;
 
 use adslam_experiment::ExperimentError;
 use plotters::drawing::DrawingAreaErrorKind;
@@ -28,6 +29,22 @@ pub enum FigureError {
     /// A file could not be written.
     #[error(transparent)]
     Output(#[from] ExperimentError),
+}
+
+/// For programs whose other errors are the experiments'.
+impl From<FigureError> for ExperimentError {
+    fn from(error: FigureError) -> Self {
+        let cause = io::Error::other(error.to_string());
+        match error {
+            FigureError::Output(error) => error,
+            FigureError::Layout { figure, .. } | FigureError::Raster { figure, .. } => {
+                Self::Output {
+                    path: figure.into(),
+                    cause,
+                }
+            }
+        }
+    }
 }
 
 /// What the plotting crate can say; writing into a string cannot fail by itself.

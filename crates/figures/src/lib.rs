@@ -9,6 +9,7 @@ mod axis;
 mod boxes;
 mod chart;
 mod comparison;
+mod consistency;
 mod coverage;
 mod environments;
 mod error;
@@ -28,6 +29,7 @@ mod ticks;
 
 pub use boxes::boxes;
 pub use comparison::comparison;
+pub use consistency::consistency;
 pub use coverage::coverage;
 pub use environments::environments;
 pub use error::{DrawingError, FigureError};

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use adslam_experiment::config::Config;
+use adslam_experiment::config::{Config, Selection};
 use adslam_experiment::run::{HistoryRecorder, Interrupt, RunHistory, Setup, simulate};
 use adslam_experiment::scenario::{PlannerName, Scenario};
 use adslam_experiment::tables::{ExperimentTables, TablePlan, TablesOptions};
@@ -33,9 +33,11 @@ fn record(scenario: &str, steps: usize) -> Vec<RunHistory> {
 fn tables(runs: usize) -> ExperimentTables {
     let config = Config::load(&file("configs/paper.toml")).unwrap();
     let options = TablesOptions {
-        runs: Some(runs),
-        only: vec!["polygon".to_owned()],
-        mesh: None,
+        selection: Selection {
+            runs: Some(runs),
+            only: vec!["polygon".to_owned()],
+            mesh: None,
+        },
         record: false,
     };
     let mut config = config;

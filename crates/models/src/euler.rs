@@ -1,5 +1,7 @@
 //! Orientation as three Euler angles, as the paper's state keeps it.
 
+use std::f64::consts::PI;
+
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::wrap_angle;
@@ -43,6 +45,21 @@ impl EulerAngles {
     pub fn from_rotation(world_from_body: &Rotation3<f64>) -> Self {
         let (roll, pitch, yaw) = world_from_body.euler_angles();
         Self::new(roll, pitch, yaw)
+    }
+
+    /// The angles of a rotation from body to world that are nearest to `reference`: of the two triples that
+    /// every rotation has, the other one has its pitch beyond ±π/2.
+    #[must_use]
+    pub fn nearest_of_rotation(world_from_body: &Rotation3<f64>, reference: Self) -> Self {
+        let first = Self::from_rotation(world_from_body);
+        let second = Self::new(first.roll + PI, PI - first.pitch, first.yaw + PI);
+        let second = second.plus(&Vector3::zeros());
+        let distance = |angles: Self| angles.minus(reference).norm_squared();
+        if distance(second) < distance(first) {
+            second
+        } else {
+            first
+        }
     }
 
     /// R(Θ), from body to world.
@@ -144,6 +161,21 @@ mod tests {
         ) {
             let angles = EulerAngles::new(roll, pitch, yaw);
             let back = EulerAngles::from_rotation(&angles.rotation());
+            prop_assert!(back.minus(angles).norm() < 1e-12);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_nearest_angles_are_those_one_came_from(
+            roll in -3.1..3.1, pitch in -3.1..3.1, yaw in -3.1..3.1,
+            offset in prop::array::uniform3(-0.3..0.3)
+        ) {
+            let angles = EulerAngles::new(roll, pitch, yaw);
+            // Nearer to pitch ±π/2 the two triples meet.
+            prop_assume!(pitch.cos().abs() > 0.5);
+            let near = angles.plus(&Vector3::from(offset));
+            let back = EulerAngles::nearest_of_rotation(&angles.rotation(), near);
             prop_assert!(back.minus(angles).norm() < 1e-12);
         }
     }

@@ -9,6 +9,7 @@
 
 mod angles;
 mod euler;
+pub mod lie;
 mod measurement;
 mod motion;
 mod pose;

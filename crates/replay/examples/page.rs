@@ -7,7 +7,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use adslam_experiment::run::{HistoryRecorder, Interrupt, RunHistory, Setup, simulate};
-use adslam_experiment::scenario::Scenario;
+use adslam_experiment::scenario::{Named, PlannerName, Scenario};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
@@ -26,7 +26,7 @@ fn history(out: &str, run: &str) -> Result<RunHistory, Box<dyn Error>> {
         return Ok(RunHistory::load(Path::new(run))?);
     };
     let setup = Setup::new(&Scenario::load(Path::new(scenario))?)?;
-    let planner = planner.parse()?;
+    let planner = PlannerName::named(planner)?;
     let mut recorder = HistoryRecorder::new(&setup, planner, 1);
     simulate(&setup, planner, 1, &Interrupt::new(), &mut recorder)?;
     let folder = PathBuf::from(format!("{out}.{planner}"));

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use adslam_experiment::config::Config;
+use adslam_experiment::config::{Config, Selection};
 use adslam_experiment::run::Interrupt;
 use adslam_experiment::scenario::PlannerName;
 use adslam_experiment::tables::{ResultCell, TablePlan, Tables, TablesOptions};
@@ -19,10 +19,12 @@ fn tables(record: bool) -> Tables {
             .retain(|p| matches!(p, PlannerName::Predetermined | PlannerName::Global));
     }
     let options = TablesOptions {
-        runs: Some(2),
-        only: vec!["polygon".to_owned()],
+        selection: Selection {
+            runs: Some(2),
+            only: vec!["polygon".to_owned()],
+            mesh: None,
+        },
         record,
-        ..TablesOptions::default()
     };
     let plan = TablePlan::new(config, &options).unwrap();
     plan.run(&Interrupt::new(), &|| ())

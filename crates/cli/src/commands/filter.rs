@@ -6,7 +6,7 @@ use std::path::Path;
 
 use adslam_experiment::ExperimentError;
 use adslam_experiment::diagnostics::InputError;
-use adslam_experiment::log::{TailPolicy, filter_log};
+use adslam_experiment::log::{FilterChoice, TailPolicy, filter_log};
 use adslam_experiment::output::{AtomicFile, prepare_folder};
 use adslam_experiment::run::Interrupt;
 
@@ -44,10 +44,23 @@ fn filter_all(
     let bar = progress::reading(&log);
     let reader = BufReader::new(bar.wrap_read(log));
     let mut steps = 0;
-    let result = filter_log(reader, &args.log, &mut out, policy, interrupt, &mut || {
+    let choice = FilterChoice {
+        estimator: args.estimator,
+        gate_probability: args.gate,
+    };
+    let mut progress = || {
         steps += 1;
         bar.set_message(format!("{steps} steps filtered"));
-    });
+    };
+    let result = filter_log(
+        reader,
+        &args.log,
+        choice,
+        &mut out,
+        policy,
+        interrupt,
+        &mut progress,
+    );
     bar.finish_and_clear();
     let summary = result?;
     out.commit()?;
@@ -60,9 +73,14 @@ fn filter_all(
     }
     answer.set("steps", summary.steps);
     answer.set("features", summary.features);
+    answer.set("rejected_measurements", summary.rejected);
     answer.set_files(&[&args.out]);
+    let rejected = match summary.rejected {
+        0 => String::new(),
+        some => format!("the gate kept out {some} feature measurements; "),
+    };
     answer.say(format_args!(
-        "filtered {} steps with {} features; wrote {}",
+        "filtered {} steps with {} features; {rejected}wrote {}",
         summary.steps,
         summary.features,
         args.out.display()

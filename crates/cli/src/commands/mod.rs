@@ -2,6 +2,7 @@
 
 mod check;
 mod completions;
+mod consistency;
 mod export;
 mod filter;
 mod mesh;
@@ -9,10 +10,13 @@ mod new;
 mod replay;
 mod run;
 mod schema;
+mod study;
+mod sweep;
 mod tables;
 
 pub use check::check;
 pub use completions::completions;
+pub use consistency::consistency;
 pub use export::export;
 pub use filter::filter;
 pub use mesh::mesh;
@@ -20,4 +24,5 @@ pub use new::new;
 pub use replay::replay;
 pub use run::run;
 pub use schema::{schema, schema_text};
+pub use sweep::sweep;
 pub use tables::tables;

@@ -14,13 +14,15 @@ use crate::paths::folder_of;
 
 const SCENARIO: &str = include_str!("../../templates/scenario.toml");
 const CONFIG: &str = include_str!("../../templates/config.toml");
+const SWEEP: &str = include_str!("../../templates/sweep.toml");
 
-/// Writes a commented scenario or configuration to start from.
+/// Writes a commented scenario, configuration or sweep to start from.
 ///
 /// # Errors
 /// A file that is there already, one that cannot be written, or a scenario that cannot be used.
 pub fn new(file: &NewFile) -> Result<(), ExperimentError> {
-    let (NewFile::Scenario(args) | NewFile::Config { args, .. }) = file;
+    let (NewFile::Scenario(args) | NewFile::Config { args, .. } | NewFile::Sweep { args, .. }) =
+        file;
     Answer::give(args.json, |answer| match file {
         NewFile::Scenario(_) => {
             let out = write(args, "scenario.toml", |_| Ok(SCENARIO.to_owned()), answer)?;
@@ -31,10 +33,19 @@ pub fn new(file: &NewFile) -> Result<(), ExperimentError> {
             Ok(())
         }
         NewFile::Config { scenario, .. } => {
-            let text = |out: &Path| configuration(out, scenario.as_deref());
+            let text = |out: &Path| of_scenario(CONFIG, out, scenario.as_deref());
             let out = write(args, "config.toml", text, answer)?;
             answer.say(format_args!(
                 "wrote {0}; next: adslam tables {0} --out results",
+                out.display()
+            ));
+            Ok(())
+        }
+        NewFile::Sweep { scenario, .. } => {
+            let text = |out: &Path| of_scenario(SWEEP, out, scenario.as_deref());
+            let out = write(args, "sweep.toml", text, answer)?;
+            answer.say(format_args!(
+                "wrote {0}; next: adslam sweep {0} --out results",
                 out.display()
             ));
             Ok(())
@@ -63,8 +74,8 @@ fn write(
     Ok(out)
 }
 
-/// The configuration at `out`, of a scenario or, if none is given, of the `scenario.toml` beside it.
-fn configuration(out: &Path, scenario: Option<&Path>) -> Result<String, InputError> {
+/// The text at `out` that names a scenario or, if none is given, the `scenario.toml` beside it.
+fn of_scenario(template: &str, out: &Path, scenario: Option<&Path>) -> Result<String, InputError> {
     let folder = folder_of(out);
     let beside = out.with_file_name("scenario.toml");
     let path = scenario.unwrap_or(&beside);
@@ -82,7 +93,7 @@ fn configuration(out: &Path, scenario: Option<&Path>) -> Result<String, InputErr
         InputError::about_file(path, message).with_help("give the scenario a plain name")
     })?;
     let quoted = toml::Value::from(name).to_string();
-    Ok(CONFIG.replace("{scenario}", &quoted))
+    Ok(template.replace("{scenario}", &quoted))
 }
 
 /// The path as it counts from `folder`; absolute where the one does not lead to the other.

@@ -3,7 +3,7 @@
 use adslam_experiment::ExperimentError;
 use adslam_experiment::output::prepare_folder;
 use adslam_experiment::run::{Interrupt, Observer, RunRecorder, Setup, StepView, simulate};
-use adslam_experiment::scenario::Scenario;
+use adslam_experiment::scenario::{Named, Scenario};
 use indicatif::ProgressBar;
 
 use crate::answer::Answer;

@@ -27,9 +27,7 @@ fn run_all(
     answer: &mut Answer,
 ) -> Result<(), ExperimentError> {
     let options = TablesOptions {
-        runs: args.runs,
-        only: args.only.clone(),
-        mesh: args.mesh.clone(),
+        selection: args.selection.selection(),
         record: args.html,
     };
     let plan = TablePlan::load(&args.config, &options)?;

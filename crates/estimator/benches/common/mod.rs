@@ -3,8 +3,8 @@
 #![allow(dead_code, reason = "each bench uses a part")]
 
 use adslam_estimator::{
-    Belief, Ekf, EstimatorError, FeatureMeasurement, FilterNoise, Measurements,
-    StructureMeasurements,
+    Belief, Ekf, Estimator, EstimatorError, FeatureMeasurement, FilterNoise, Measurements,
+    StructureMeasurements, UpdateReport,
 };
 use adslam_models::{Control, FeatureId, Pose, feature_measurement, state_dim};
 use nalgebra::{Matrix6, Point3, Vector3, Vector6};
@@ -118,7 +118,11 @@ impl Step {
     ///
     /// # Errors
     /// Those of the filter.
-    pub fn run(&self, ekf: &mut Ekf, belief: &mut Belief) -> Result<(), EstimatorError> {
+    pub fn run(
+        &self,
+        ekf: &mut dyn Estimator,
+        belief: &mut Belief,
+    ) -> Result<UpdateReport, EstimatorError> {
         ekf.predict(belief, &self.control, &self.motion)?;
         self.update(ekf, belief, &self.features)
     }
@@ -129,10 +133,10 @@ impl Step {
     /// Those of the filter.
     pub fn update(
         &self,
-        ekf: &mut Ekf,
+        ekf: &mut dyn Estimator,
         belief: &mut Belief,
         features: &[FeatureMeasurement],
-    ) -> Result<(), EstimatorError> {
+    ) -> Result<UpdateReport, EstimatorError> {
         let measurements = Measurements {
             features,
             structure: StructureMeasurements::AllPairsSummed(&self.sums),

@@ -24,7 +24,7 @@ use super::pose_factor::set_cross_factor;
 use super::workspace::SetWorkspace;
 use crate::buffer::Buffer;
 use crate::ekf::check_feature;
-use crate::linear_algebra::{set_gram, set_product, subtract_product};
+use crate::linear_algebra::{add_product, set_gram, set_product};
 use crate::{Covariance, EstimatorError, Parallelism};
 
 /// A 12 × 12 matrix over ξ.
@@ -103,8 +103,9 @@ impl SharedBlocks {
             );
         }
         let mut p_hat = self.columns.subrows_mut(POSE_DIM, all);
-        subtract_product(
+        add_product(
             p_hat.rb_mut(),
+            -1.0,
             self.j.as_ref(),
             self.j_seen.as_ref(),
             Parallelism::Sequential,

@@ -53,6 +53,11 @@ impl PairGraph {
         Ok(false)
     }
 
+    /// How many independent differences the pairs read last measure.
+    pub(super) fn rank(&self) -> usize {
+        self.values.len()
+    }
+
     fn factorise(&mut self, count: usize) -> Result<(), EstimatorError> {
         let eigen = self
             .candidate

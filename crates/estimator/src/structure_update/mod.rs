@@ -8,12 +8,12 @@
 mod all_pairs;
 mod graph;
 
-use adslam_models::{FeatureId, structure_measurement};
-use nalgebra::Vector3;
+use adslam_models::{FeatureId, POSE_DIM, structure_measurement};
+use nalgebra::{Point3, Vector3};
 
 use crate::ekf::check_feature;
 use crate::workspace::Workspace;
-use crate::{Belief, EstimatorError, Parallelism};
+use crate::{Belief, EstimatorError, Nis, Parallelism};
 pub(crate) use all_pairs::condition_on_all_pairs;
 use graph::PairGraph;
 
@@ -43,33 +43,40 @@ pub enum StructureMeasurements<'a> {
 /// The update with structure measurements, in memory that is kept.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StructureUpdate {
+    /// The features with the correction so far.
+    corrected: Vec<Point3<f64>>,
     /// Hᵀ(z − Hχ̂), cm.
     residual: Vec<Vector3<f64>>,
     graph: PairGraph,
 }
 
 impl StructureUpdate {
-    /// Conditions the belief on the measurements. Of the covariance only the lower triangle is brought up
-    /// to date.
+    /// Conditions the covariance on the measurements and adds the correction to `delta`, what the state is to
+    /// be corrected by so far. Of the covariance only the lower triangle is brought up to date.
     pub(crate) fn apply(
         &mut self,
         belief: &mut Belief,
+        delta: &mut [f64],
         measurements: &StructureMeasurements<'_>,
         sigma: f64,
         workspace: &mut Workspace,
         parallelism: Parallelism,
-    ) -> Result<(), EstimatorError> {
+    ) -> Result<Nis, EstimatorError> {
         let count = belief.state.features.len();
+        self.set_corrected(belief, delta);
+        let (residual, corrected) = (&mut self.residual, &self.corrected);
         let all_pairs = match measurements {
-            StructureMeasurements::None | StructureMeasurements::Pairs([]) => return Ok(()),
+            StructureMeasurements::None | StructureMeasurements::Pairs([]) => {
+                return Ok(Nis::default());
+            }
             StructureMeasurements::AllPairsSummed(sums) => {
                 check_sums(sums, count)?;
-                set_summed_residual(&mut self.residual, belief, sums);
+                set_summed_residual(residual, corrected, sums);
                 true
             }
             StructureMeasurements::Pairs(pairs) => {
                 check_pairs(pairs, count)?;
-                set_pair_residual(&mut self.residual, belief, pairs);
+                set_pair_residual(residual, corrected, pairs);
                 self.graph.read(pairs, count)?
             }
         };
@@ -80,13 +87,34 @@ impl StructureUpdate {
             self.graph
                 .condition(covariance, residual, sigma, workspace, parallelism)?;
         }
-        belief.correct(|i| workspace.correction(i))
+        workspace.add_correction(delta);
+        Ok(Nis {
+            value: workspace.nis(),
+            dof: 3 * if all_pairs {
+                count.saturating_sub(1)
+            } else {
+                self.graph.rank()
+            },
+        })
+    }
+
+    /// p̂ + δ of each feature: the measurements are linear in the paper's coordinates, so they may be
+    /// compared with what the measurements before them led to.
+    fn set_corrected(&mut self, belief: &Belief, delta: &[f64]) {
+        let (parts, _) = delta[POSE_DIM..].as_chunks::<3>();
+        let both = belief.state.features.iter().zip(parts);
+        self.corrected.clear();
+        self.corrected
+            .extend(both.map(|(p, part)| p + Vector3::from(*part)));
     }
 }
 
 /// Hᵀ(z − Hχ̂) from the sums over all pairs.
-fn set_summed_residual(residual: &mut Vec<Vector3<f64>>, belief: &Belief, sums: &[Vector3<f64>]) {
-    let features = &belief.state.features;
+fn set_summed_residual(
+    residual: &mut Vec<Vector3<f64>>,
+    features: &[Point3<f64>],
+    sums: &[Vector3<f64>],
+) {
     let count = features.len() as f64;
     let total: Vector3<f64> = features.iter().map(|p| p.coords).sum();
     residual.clear();
@@ -98,8 +126,11 @@ fn set_summed_residual(residual: &mut Vec<Vector3<f64>>, belief: &Belief, sums: 
 }
 
 /// Hᵀ(z − Hχ̂) from a list of pairs.
-fn set_pair_residual(residual: &mut Vec<Vector3<f64>>, belief: &Belief, pairs: &[PairMeasurement]) {
-    let features = &belief.state.features;
+fn set_pair_residual(
+    residual: &mut Vec<Vector3<f64>>,
+    features: &[Point3<f64>],
+    pairs: &[PairMeasurement],
+) {
     residual.clear();
     residual.resize(features.len(), Vector3::zeros());
     for pair in pairs {

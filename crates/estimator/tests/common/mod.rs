@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "each test file uses a part")]
 
 pub mod filters;
+pub mod textbook;
 pub mod world;
 
 use adslam_estimator::{Belief, Covariance, FeatureMeasurement, FilterNoise, PairMeasurement};

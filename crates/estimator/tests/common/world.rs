@@ -42,13 +42,11 @@ impl Step {
             StructureKind::AllPairs => StructureMeasurements::AllPairsSummed(&self.sums),
         };
         let features = &self.seen;
-        filter.update(
-            belief,
-            &Measurements {
-                features,
-                structure,
-            },
-        )
+        let measurements = Measurements {
+            features,
+            structure,
+        };
+        filter.update(belief, &measurements).map(drop)
     }
 }
 
@@ -129,13 +127,17 @@ impl World {
         Vector3::from_fn(|_, _| sigma * self.rng.sample::<f64, _>(StandardNormal))
     }
 
-    /// A turn at random, and the way to the next place on the circle.
+    /// A turn at random, roll and pitch kept small as planners keep them, and the way to the next place on
+    /// the circle.
     fn control(&mut self) -> Control {
         let angle = std::f64::consts::TAU * (self.steps % ROUND) as f64 / ROUND as f64;
         let height = self.rng.random_range(-1.0..1.0);
         let next = Point3::new(RADIUS * angle.cos(), RADIUS * angle.sin(), height);
+        let turn = Vector3::from_fn(|_, _| self.rng.random_range(-0.3..0.3));
+        let orientation = self.truth.pose.orientation;
+        let back = Vector3::new(orientation.roll, orientation.pitch, 0.0) * 0.2;
         Control {
-            rotation: Vector3::from_fn(|_, _| self.rng.random_range(-0.3..0.3)),
+            rotation: turn - back,
             translation: self.truth.pose.body_from_world(&next),
         }
     }

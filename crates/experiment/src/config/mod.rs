@@ -4,6 +4,7 @@
 mod check;
 mod plan;
 mod published;
+mod selection;
 #[cfg(test)]
 mod tests;
 
@@ -14,7 +15,10 @@ use serde::Deserialize;
 
 pub use check::{CheckedFile, check_file};
 pub use plan::ExperimentPlan;
+pub(crate) use plan::{each_once, reachable};
 pub use published::{Published, PublishedPlanner, PublishedScenario, StepsToCover};
+pub use selection::Selection;
+pub(crate) use selection::checked_runs;
 
 use crate::diagnostics::{Document, FileKind, InputError};
 use crate::scenario::PlannerName;
@@ -22,14 +26,12 @@ use crate::scenario::values::{Count, List, Name, Seed};
 
 /// More runs of a planner are a mistake: their summaries would not fit into memory.
 pub const MOST_RUNS: usize = 100_000;
-/// More runs in all, of every planner in every experiment, are a mistake for the same reason.
+/// More runs in all, of every planner in every experiment or at every point of a sweep, would take months.
 pub const MOST_RUNS_IN_ALL: usize = 1_000_000;
 /// More experiments are a mistake: the scenario of each is read and built before the first run.
 const MOST_EXPERIMENTS: usize = 1_000;
-/// More overrides of one scenario are a mistake: it has fewer keys.
-const MOST_OVERRIDES: usize = 1_000;
 /// How many times each planner runs in each experiment.
-type Runs = Count<1, { MOST_RUNS as u64 }>;
+pub(crate) type Runs = Count<1, { MOST_RUNS as u64 }>;
 
 /// A configuration with everything it refers to read, overridden and checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,10 +87,10 @@ struct Experiment {
     published: Option<Name>,
     /// Overrides of the scenario's keys: each key is a path into the scenario, in quotes; at most
     /// 1000. Default: none.
-    // Only counted here: `Document` reads them in place.
-    #[serde(default)]
+    // Only their being a table is looked at here: `Document` reads them in place.
+    #[serde(default, rename = "set")]
     #[schemars(schema_with = "crate::schema::overrides")]
-    set: toml::Table,
+    _set: toml::Table,
 }
 
 impl Config {
@@ -159,6 +161,6 @@ fn runs() -> Runs {
     Runs::default_of(5)
 }
 
-fn first_seed() -> Seed {
+pub(crate) fn first_seed() -> Seed {
     Seed::default_of(1)
 }

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Experiment, MOST_OVERRIDES, Published, PublishedScenario};
-use crate::diagnostics::{Document, InputError, nearest};
+use super::{Experiment, Published, PublishedScenario};
+use crate::diagnostics::{Document, InputError, Layer, nearest};
 use crate::scenario::values::Name;
 use crate::scenario::{PlannerName, Scenario};
 
@@ -39,16 +39,9 @@ impl Place<'_> {
     ) -> Result<ExperimentPlan, InputError> {
         let path = self.folder.join(&experiment.scenario);
         let path = reachable(self.document, &self.key("scenario"), path)?;
-        let scenario = self.overridden(experiment, Scenario::load(&path)?)?;
-        for (second, planner) in experiment.planners.iter().enumerate() {
-            if experiment.planners[..second].contains(planner) {
-                let place = self.key(&format!("planners[{second}]"));
-                return Err(self
-                    .document
-                    .error_at(&place, format!("the planner {planner} is listed twice"))
-                    .with_help("name each planner once; for more runs raise `runs`"));
-            }
-        }
+        let set = Layer::of_values(self.key("set"));
+        let scenario = Scenario::load(&path)?.overridden(self.document, vec![set])?;
+        each_once(self.document, &self.key("planners"), &experiment.planners)?;
         let published = match &experiment.published {
             None => None,
             Some(name) => Some(self.published(name, published)?),
@@ -63,57 +56,6 @@ impl Place<'_> {
             scenario,
             planners: experiment.planners.to_vec(),
             published,
-        })
-    }
-
-    /// The scenario with the overrides of this experiment.
-    fn overridden(
-        &self,
-        experiment: &Experiment,
-        scenario: Scenario,
-    ) -> Result<Scenario, InputError> {
-        let set = self.key("set");
-        let count = experiment.set.len();
-        if count == 0 {
-            return Ok(scenario);
-        }
-        if count > MOST_OVERRIDES {
-            return Err(self
-                .document
-                .error_at(&set, format!("there are {count} overrides"))
-                .with_help(format!(
-                    "write at most {MOST_OVERRIDES}, and the rest into a scenario of its own"
-                )));
-        }
-        let overrides = self.document.keys(&set);
-        let merged = scenario.document().with_overrides(self.document, &set);
-        let error = match Scenario::from_document(merged.clone()) {
-            Err(error) if merged.is_in_base(&error) => error,
-            result => return result,
-        };
-        // The scenario is valid by itself, so an override is to blame where it points: the one
-        // without which all would be well.
-        let guilty = overrides
-            .iter()
-            .find(|key| Scenario::from_document(merged.without_override(key)).is_ok());
-        let message = format!("with this override, {}", error.message());
-        let blamed = match guilty {
-            Some(key) => merged.error_at_override(key, message),
-            None => self.document.error_at(&set, message),
-        };
-        let key = error
-            .pointed_at()
-            .filter(|text| !text.contains('\n'))
-            .unwrap_or_default();
-        let label = format!("does not go with `{key}` in {}", error.path().display());
-        let blamed = if key.is_empty() {
-            blamed
-        } else {
-            blamed.with_label(label)
-        };
-        Err(match error.remedy() {
-            Some(remedy) => blamed.with_help(remedy),
-            None => blamed,
         })
     }
 
@@ -166,8 +108,25 @@ impl Place<'_> {
     }
 }
 
+/// Refuses a list of planners, at `key`, with one of them twice.
+pub(crate) fn each_once(
+    document: &Document,
+    key: &str,
+    planners: &[PlannerName],
+) -> Result<(), InputError> {
+    for (second, planner) in planners.iter().enumerate() {
+        if planners[..second].contains(planner) {
+            let place = format!("{key}[{second}]");
+            return Err(document
+                .error_at(&place, format!("the planner {planner} is listed twice"))
+                .with_help("name each planner once; for more runs raise `runs`"));
+        }
+    }
+    Ok(())
+}
+
 /// The path, if there is a file: the fault of a wrong path lies in the configuration, at `key`.
-pub(super) fn reachable(
+pub(crate) fn reachable(
     document: &Document,
     key: &str,
     path: PathBuf,

@@ -6,11 +6,15 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use schemars::JsonSchema;
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use toml::de::{DeTable, DeValue, Deserializer};
+use serde_json::Value;
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue, Deserializer};
 
 use super::explain::{Surroundings, explain, explain_syntax};
-use super::{InputError, key_path, overrides, read_text};
+use super::overlay::Overlay;
+use super::{InputError, key_path, read_text};
 use crate::schema::Advice;
 
 /// Files above this size are not ours: the largest that a person writes has a few kilobytes, and the
@@ -19,30 +23,17 @@ const LARGEST_FILE: u64 = 4 << 20;
 
 /// A text and where it came from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-struct Source {
-    path: PathBuf,
-    text: Arc<str>,
+pub(super) struct Source {
+    pub(super) path: PathBuf,
+    pub(super) text: Arc<str>,
 }
 
 /// A TOML document, kept as its text: it is parsed again when a place is looked up, which happens
 /// when something is wrong and costs next to nothing.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Document {
-    base: Source,
-    overlay: Option<Overlay>,
-}
-
-/// Overrides: a table of another document, whose keys are paths into this one.
-///
-/// Their values keep their places: in the merged tables a span of the overlay is moved behind the
-/// base's text, so that every span says which of the two it belongs to.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Overlay {
-    source: Source,
-    /// Path of the table, such as `experiments[0].set`.
-    table: String,
-    /// An override to leave out, to find out whether it is to blame.
-    without: Option<String>,
+    pub(super) base: Source,
+    pub(super) overlay: Option<Overlay>,
 }
 
 impl Document {
@@ -63,7 +54,7 @@ impl Document {
         if tables.is_empty() {
             let message = format!("{} has no keys", path.display());
             return Err(InputError::about_file(path, message).with_help(
-                "`adslam new scenario` and `adslam new config` write files to start from",
+                "`adslam new` writes scenarios, configurations and sweeps to start from",
             ));
         }
         drop(tables);
@@ -89,29 +80,7 @@ impl Document {
         &self.base.text
     }
 
-    /// This document with the overrides in `table` (such as `experiments[0].set`) of `other`.
-    pub(crate) fn with_overrides(&self, other: &Self, table: &str) -> Self {
-        let overlay = Overlay {
-            source: other.base.clone(),
-            table: table.to_owned(),
-            without: None,
-        };
-        Self {
-            base: self.base.clone(),
-            overlay: Some(overlay),
-        }
-    }
-
-    /// The same document without the override of `path`.
-    pub(crate) fn without_override(&self, path: &str) -> Self {
-        let mut document = self.clone();
-        if let Some(overlay) = &mut document.overlay {
-            overlay.without = Some(path.to_owned());
-        }
-        document
-    }
-
-    /// The keys of the document's root or, with a path, of the table there.
+    /// The keys of the document's root or, with a path, of the table there, in the order of the file.
     pub(crate) fn keys(&self, path: &str) -> Vec<String> {
         let Ok(tables) = self.tables() else {
             return Vec::new();
@@ -121,11 +90,17 @@ impl Document {
         } else {
             table_at(&tables, path)
         };
-        table
-            .into_iter()
-            .flat_map(DeTable::keys)
-            .map(|key| key.get_ref().to_string())
-            .collect()
+        let entries = table.into_iter().flat_map(in_order);
+        entries.map(|(key, _)| key.get_ref().to_string()).collect()
+    }
+
+    /// The document as JSON.
+    pub(crate) fn to_json(&self) -> Value {
+        let json = self.tables().ok().and_then(|tables| {
+            let root = Spanned::new(0..0, tables);
+            Value::deserialize(Deserializer::from(root)).ok()
+        });
+        json.unwrap_or_default()
     }
 
     /// Reads the document as a `T`.
@@ -134,7 +109,7 @@ impl Document {
     /// When a key is unknown or missing, or a value is not what `T` wants there.
     pub(crate) fn deserialize<T: DeserializeOwned + JsonSchema>(&self) -> Result<T, InputError> {
         let tables = self.tables()?;
-        let root = toml::Spanned::new(0..0, tables.clone());
+        let root = Spanned::new(0..0, tables.clone());
         T::deserialize(Deserializer::from(root)).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
             let (path, keys) = key_path::at_span(&tables, &span);
@@ -161,21 +136,6 @@ impl Document {
             Some(place.key.filter(|_| long).unwrap_or(value))
         });
         self.error_in(span.unwrap_or(0..0), message)
-    }
-
-    /// An error about the override of `key`, pointing at it.
-    pub(crate) fn error_at_override(&self, key: &str, message: impl Display) -> InputError {
-        let Some(overlay) = &self.overlay else {
-            return self.error_in(0..0, message);
-        };
-        let span = parse(&overlay.source).ok().and_then(|other| {
-            let (key, value) = table_at(&other, &overlay.table)?
-                .iter()
-                .find(|(known, _)| known.get_ref() == key)?;
-            Some(key.span().start..value.span().end)
-        });
-        let Source { path, text } = &overlay.source;
-        InputError::in_text(path, text, span.unwrap_or(0..0), message)
     }
 
     /// Whether a span of the merged tables lies in the overrides.
@@ -217,47 +177,25 @@ impl Document {
         self.base.text.len() + 1
     }
 
-    fn tables(&self) -> Result<DeTable<'_>, InputError> {
+    pub(super) fn tables(&self) -> Result<DeTable<'_>, InputError> {
         let mut root = parse(&self.base)?;
-        let Some(overlay) = &self.overlay else {
-            return Ok(root);
-        };
-        let other = parse(&overlay.source)?;
-        let Source { path, text } = &overlay.source;
-        for (key, value) in table_at(&other, &overlay.table).into_iter().flatten() {
-            let name = key.get_ref();
-            if overlay.without.as_deref() == Some(name) {
-                continue;
-            }
-            let dotted = value.get_ref().is_table()
-                && !text
-                    .get(value.span())
-                    .is_some_and(|text| text.starts_with('{'));
-            if dotted {
-                let message = format!("the path that starts with `{name}` is not in quotes");
-                return Err(InputError::in_text(path, text, key.span(), message)
-                    .with_help(format!("put all of it in quotes: \"{name}.…\" = …")));
-            }
-            let offset = self.overlay_offset();
-            let value = overrides::shifted(value, offset);
-            let span = overrides::moved(key.span(), offset);
-            overrides::set(&mut root, name, span, value).map_err(|in_the_way| {
-                let base = self.base.path.display();
-                InputError::in_text(
-                    path,
-                    text,
-                    key.span(),
-                    format!("there is no `{name}` to set"),
-                )
-                .with_label("leads nowhere")
-                .with_help(format!("`{in_the_way}` in {base} has no such part"))
-            })?;
+        if let Some(overlay) = &self.overlay {
+            overlay.lay_over(&mut root, &self.base, self.overlay_offset())?;
         }
         Ok(root)
     }
 }
 
-fn table_at<'a, 'i>(root: &'a DeTable<'i>, path: &str) -> Option<&'a DeTable<'i>> {
+/// The entries of a table, in the order of the file.
+pub(super) fn in_order<'a, 'i>(
+    table: &'a DeTable<'i>,
+) -> Vec<(&'a Spanned<DeString<'i>>, &'a Spanned<DeValue<'i>>)> {
+    let mut entries: Vec<_> = table.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    entries
+}
+
+pub(super) fn table_at<'a, 'i>(root: &'a DeTable<'i>, path: &str) -> Option<&'a DeTable<'i>> {
     let place = key_path::find(root, &key_path::steps(path))?;
     match place.value.get_ref() {
         DeValue::Table(table) if place.whole => Some(table),
@@ -265,7 +203,7 @@ fn table_at<'a, 'i>(root: &'a DeTable<'i>, path: &str) -> Option<&'a DeTable<'i>
     }
 }
 
-fn parse(source: &Source) -> Result<DeTable<'_>, InputError> {
+pub(super) fn parse(source: &Source) -> Result<DeTable<'_>, InputError> {
     let parsed = DeTable::parse(&source.text).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
         InputError::in_text(&source.path, &source.text, span, "").explained(explain_syntax(&error))

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
+use serde_json::Value;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -77,6 +78,14 @@ pub(super) fn find<'a, 'i>(root: &'a DeTable<'i>, path: &[Step]) -> Option<Place
         }
     }
     Some(place)
+}
+
+/// What all of `path` leads to in a document as JSON; none where it leads nowhere.
+pub(crate) fn json_at<'a>(root: &'a Value, path: &str) -> Option<&'a Value> {
+    steps(path).iter().try_fold(root, |value, step| match step {
+        Step::Key(key) => value.get(key),
+        Step::Element(index) => value.get(index),
+    })
 }
 
 /// The path of the value that stands at `span`, or of the table that has a key there, and the keys of

@@ -13,6 +13,8 @@ pub enum FileKind {
     Configuration,
     /// Published results.
     Published,
+    /// A sweep: a scenario with some of its keys varied.
+    Sweep,
 }
 
 impl fmt::Display for FileKind {
@@ -21,6 +23,7 @@ impl fmt::Display for FileKind {
             Self::Scenario => "scenario",
             Self::Configuration => "configuration",
             Self::Published => "file of published tables",
+            Self::Sweep => "sweep",
         })
     }
 }
@@ -33,10 +36,19 @@ impl FileKind {
             Self::Scenario => "scenario",
             Self::Configuration => "config",
             Self::Published => "published",
+            Self::Sweep => "sweep",
         }
     }
 
-    /// Keys of the root that only this kind has.
+    /// All of them.
+    pub const ALL: [Self; 4] = [
+        Self::Scenario,
+        Self::Configuration,
+        Self::Published,
+        Self::Sweep,
+    ];
+
+    /// Keys of the root that tell of this kind.
     const fn telling_keys(self) -> &'static [&'static str] {
         match self {
             Self::Scenario => &[
@@ -49,8 +61,9 @@ impl FileKind {
                 "motion",
                 "steps",
             ],
-            Self::Configuration => &["experiments", "runs", "first_seed"],
+            Self::Configuration => &["experiments", "published", "runs", "first_seed"],
             Self::Published => &["tables"],
+            Self::Sweep => &["grid", "points", "set", "scenario", "runs", "first_seed"],
         }
     }
 
@@ -63,10 +76,16 @@ impl FileKind {
                 .filter(|key| telling.contains(&key.as_str()))
                 .count()
         };
-        [Self::Scenario, Self::Published, Self::Configuration]
-            .into_iter()
-            .filter(|kind| told(kind) > 0)
-            .max_by_key(told)
+        // Of equals the last is taken: `runs` alone makes a configuration.
+        [
+            Self::Scenario,
+            Self::Published,
+            Self::Sweep,
+            Self::Configuration,
+        ]
+        .into_iter()
+        .filter(|kind| told(kind) > 0)
+        .max_by_key(told)
     }
 
     /// Refuses a document that is plainly of another kind, in better words than by its first key
@@ -84,7 +103,12 @@ impl FileKind {
             (Self::Configuration, Self::Scenario) => {
                 "`adslam run` runs a scenario; or name it in a configuration, under [[experiments]]"
             }
-            _ => "docs/scenario.md says what belongs into scenarios and configurations",
+            (_, Self::Sweep) => "`adslam sweep` runs a sweep",
+            (Self::Sweep, Self::Scenario) => {
+                "`adslam run` runs a scenario; or name it in a sweep, as `scenario = …`"
+            }
+            (Self::Sweep, Self::Configuration) => "`adslam tables` runs a configuration",
+            _ => "docs/scenario.md says what belongs into scenarios, configurations and sweeps",
         };
         Err(InputError::about_file(path, message).with_help(help))
     }

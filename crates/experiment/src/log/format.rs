@@ -1,7 +1,7 @@
 //! The lines of a log and of the estimates made from it.
 
-use adslam_estimator::{Belief, EstimatorError, FilterNoise};
-use adslam_models::Pose;
+use adslam_estimator::{Belief, EstimatorError, FilterNoise, UpdateReport};
+use adslam_models::{FeatureId, Pose};
 use nalgebra::{Matrix6, Point3, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -124,6 +124,15 @@ pub struct EstimateLine {
     pub covariance_diagonal: Vec<f64>,
     /// Their sum.
     pub trace: f64,
+    /// NIS of the feature measurements that were used, and how many numbers they are.
+    #[serde(default)]
+    pub feature_nis: (f64, usize),
+    /// NIS of the structure measurements given those, and how many independent numbers they are.
+    #[serde(default)]
+    pub structure_nis: (f64, usize),
+    /// Features whose measurements the gate kept out.
+    #[serde(default)]
+    pub rejected_features: Vec<usize>,
 }
 
 impl InitialEstimate {
@@ -152,9 +161,9 @@ impl From<LogNoise> for FilterNoise {
 }
 
 impl EstimateLine {
-    /// The belief at a step.
+    /// The belief at a step, after an update that reported so.
     #[must_use]
-    pub fn of(step: u64, belief: &Belief) -> Self {
+    pub fn of(step: u64, belief: &Belief, report: &UpdateReport, rejected: &[FeatureId]) -> Self {
         let covariance = belief.covariance.pose();
         Self {
             step,
@@ -168,6 +177,9 @@ impl EstimateLine {
                 .collect(),
             covariance_diagonal: belief.covariance.variances(),
             trace: belief.covariance.trace(),
+            feature_nis: (report.features.value, report.features.dof),
+            structure_nis: (report.structure.value, report.structure.dof),
+            rejected_features: rejected.iter().map(|feature| feature.0).collect(),
         }
     }
 }

@@ -10,4 +10,4 @@ mod replay;
 
 pub use format::{EstimateLine, FORMAT, LogHeader, LogStep, VERSION};
 pub use read::LogReader;
-pub use replay::{Replay, ReplaySummary, TailPolicy, filter_log};
+pub use replay::{FilterChoice, Replay, ReplaySummary, TailPolicy, filter_log};

@@ -4,8 +4,8 @@ use std::io::BufRead;
 use std::path::Path;
 
 use adslam_estimator::{
-    Belief, Ekf, FeatureMeasurement, Measurements, PairMeasurement, Parallelism,
-    StructureMeasurements,
+    Belief, Estimator, EstimatorError, EstimatorKind, FeatureMeasurement, FilterNoise,
+    Measurements, PairMeasurement, Parallelism, StructureMeasurements, UpdateReport,
 };
 use adslam_models::{Control, FeatureId};
 use nalgebra::Vector3;
@@ -15,15 +15,27 @@ use super::read::LogReader;
 use crate::ExperimentError;
 use crate::diagnostics::InputError;
 use crate::output::AtomicFile;
-use crate::run::Interrupt;
+use crate::run::{Interrupt, gate};
+use crate::scenario::EstimatorName;
+use crate::scenario::values::Probability;
 
 /// A filter working through a log.
-#[derive(Debug)]
 pub struct Replay<R> {
     log: LogReader<R>,
     name: String,
-    ekf: Ekf,
+    noise: FilterNoise,
+    estimator: Box<dyn Estimator>,
     belief: Belief,
+    report: UpdateReport,
+}
+
+/// Which filter goes through a log.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FilterChoice {
+    /// The estimator.
+    pub estimator: EstimatorName,
+    /// The part of good feature measurements that pass its gate; absent where there is none.
+    pub gate_probability: Option<Probability>,
 }
 
 /// What to do with a line that cannot be used.
@@ -42,6 +54,8 @@ pub struct ReplaySummary {
     pub steps: usize,
     /// M.
     pub features: usize,
+    /// Feature measurements that the gate kept out.
+    pub rejected: usize,
     /// Why it ended before the end of the log, with [`TailPolicy::KeepComplete`].
     pub stopped_by: Option<InputError>,
 }
@@ -51,9 +65,9 @@ impl<R: BufRead> Replay<R> {
     ///
     /// # Errors
     /// A header that cannot be used.
-    pub fn new(reader: R, path: &Path) -> Result<Self, InputError> {
+    pub fn new(reader: R, path: &Path, choice: FilterChoice) -> Result<Self, InputError> {
         let log = LogReader::new(reader, path)?;
-        let about = |what: &str, error: adslam_estimator::EstimatorError| {
+        let about = |what: &str, error: EstimatorError| {
             let message = format!(
                 "{}: line 1: the {what} cannot be used: {error}",
                 path.display()
@@ -64,9 +78,10 @@ impl<R: BufRead> Replay<R> {
             )
         };
         // One log is one run, so the threads are free for its steps.
-        let ekf = Ekf::new(log.header().noise.into())
-            .map_err(|error| about("noise", error))?
-            .with_parallelism(Parallelism::Rayon);
+        let noise = log.header().noise.into();
+        let estimator = EstimatorKind::from(choice.estimator)
+            .build(noise, choice.gate_probability.map(gate), Parallelism::Rayon)
+            .map_err(|error| about("noise", error))?;
         let belief = log
             .header()
             .initial
@@ -75,8 +90,10 @@ impl<R: BufRead> Replay<R> {
         Ok(Self {
             log,
             name: path.display().to_string(),
-            ekf,
+            noise,
+            estimator,
             belief,
+            report: UpdateReport::default(),
         })
     }
 
@@ -102,13 +119,19 @@ impl<R: BufRead> Replay<R> {
         &self.belief
     }
 
-    /// The filter.
+    /// The noise that the filter assumes.
     #[must_use]
-    pub fn ekf(&self) -> &Ekf {
-        &self.ekf
+    pub fn noise(&self) -> &FilterNoise {
+        &self.noise
     }
 
-    fn apply(&mut self, step: &LogStep) -> Result<(), adslam_estimator::EstimatorError> {
+    /// The estimates after the step advanced to last, which was `step`.
+    #[must_use]
+    pub fn estimates(&self, step: u64) -> EstimateLine {
+        EstimateLine::of(step, &self.belief, &self.report, self.estimator.rejected())
+    }
+
+    fn apply(&mut self, step: &LogStep) -> Result<(), EstimatorError> {
         let control = Control {
             rotation: Vector3::from(step.control.rotation),
             translation: Vector3::from(step.control.translation),
@@ -137,14 +160,14 @@ impl<R: BufRead> Replay<R> {
             })
             .collect();
         let structure = StructureMeasurements::Pairs(&pairs);
-        self.ekf.predict(&mut self.belief, &control, &motion)?;
-        self.ekf.update(
-            &mut self.belief,
-            &Measurements {
-                features: &features,
-                structure,
-            },
-        )
+        self.estimator
+            .predict(&mut self.belief, &control, &motion)?;
+        let measurements = Measurements {
+            features: &features,
+            structure,
+        };
+        self.report = self.estimator.update(&mut self.belief, &measurements)?;
+        Ok(())
     }
 }
 
@@ -157,16 +180,18 @@ impl<R: BufRead> Replay<R> {
 pub fn filter_log(
     reader: impl BufRead,
     path: &Path,
+    choice: FilterChoice,
     out: &mut AtomicFile,
     policy: TailPolicy,
     interrupt: &Interrupt,
     progress: &mut dyn FnMut(),
 ) -> Result<ReplaySummary, ExperimentError> {
-    let mut replay = Replay::new(reader, path)?;
+    let mut replay = Replay::new(reader, path, choice)?;
     let features = replay.log.header().features;
     let mut summary = ReplaySummary {
         steps: 0,
         features,
+        rejected: 0,
         stopped_by: None,
     };
     loop {
@@ -182,8 +207,9 @@ pub fn filter_log(
             }
             Err(error) => return Err(error),
         };
-        out.add_json_line(&EstimateLine::of(step, replay.belief()))?;
+        out.add_json_line(&replay.estimates(step))?;
         summary.steps += 1;
+        summary.rejected += replay.report.rejected;
         progress();
     }
 }

@@ -1,8 +1,8 @@
 //! Errors at one step.
 
 use adslam_estimator::Belief;
-use adslam_models::{EulerAngles, FeatureId, Pose};
-use nalgebra::{Isometry3, Point3};
+use adslam_models::{EulerAngles, FeatureId, POSE_DIM, Pose, State, feature_offset};
+use nalgebra::{Isometry3, Vector3, Vector6};
 
 use super::align;
 
@@ -17,18 +17,21 @@ pub struct StepMetrics {
     pub position_error: f64,
     /// Eq. (12) for each feature, cm.
     pub feature_errors: Vec<f64>,
-    /// eᵀP⁻¹e of the pose, 6 degrees of freedom; absent while its covariance is singular, as at an
+    /// eᵀP⁻¹e of the pose, 6 degrees of freedom, e being the estimator's own error; absent while its covariance is singular, as at an
     /// exactly known start.
     pub pose_nees: Option<f64>,
     /// Mean over the features of eᵀP⁻¹e, 3 degrees of freedom each; absent while one is singular.
     pub feature_nees: Option<f64>,
+    /// eᵀP⁻¹e of the whole state, n degrees of freedom, divided by n; absent while P is singular.
+    pub joint_nees_per_dof: Option<f64>,
     /// Eq. (11) after the estimate was aligned to the object, see [`measure_step`].
     pub relative_pose_error: f64,
     /// Mean of eq. (12) after the alignment, cm.
     pub relative_feature_error: f64,
 }
 
-/// Compares a belief with the truth.
+/// Compares a belief with the truth. `own_error` is the error of which the belief's covariance is that, see
+/// [`Estimator::error`](adslam_estimator::Estimator::error): the NEES are of it.
 ///
 /// The object-relative errors align the estimated features rigidly to the true ones and move the
 /// estimated pose with them: they hold what the robot knows of its place relative to the object,
@@ -36,7 +39,8 @@ pub struct StepMetrics {
 ///
 /// Nothing if the estimate is not finite.
 #[must_use]
-pub fn measure_step(belief: &Belief, pose: &Pose, features: &[Point3<f64>]) -> Option<StepMetrics> {
+pub fn measure_step(belief: &Belief, truth: &State, own_error: &[f64]) -> Option<StepMetrics> {
+    let State { pose, features } = truth;
     let error = belief.state.pose.minus(pose);
     let estimated = &belief.state.features;
     let distances = |moved: &Isometry3<f64>| -> Vec<f64> {
@@ -53,12 +57,13 @@ pub fn measure_step(belief: &Belief, pose: &Pose, features: &[Point3<f64>]) -> O
         pose_error: error.norm(),
         orientation_error: error.fixed_rows::<3>(0).norm(),
         position_error: error.fixed_rows::<3>(3).norm(),
-        pose_nees: belief
+        pose_nees: pose_nees(belief, own_error),
+        feature_nees: feature_nees(belief, own_error),
+        joint_nees_per_dof: belief
             .covariance
-            .pose()
-            .cholesky()
-            .map(|c| error.dot(&c.solve(&error))),
-        feature_nees: feature_nees(belief, features),
+            .mahalanobis_squared(own_error)
+            .ok()
+            .map(|nees| nees / own_error.len() as f64),
         relative_pose_error: relative_pose.minus(pose).norm(),
         relative_feature_error: mean(&distances(&alignment)),
         feature_errors,
@@ -73,13 +78,18 @@ fn moved_pose(pose: &Pose, by: &Isometry3<f64>) -> Pose {
     )
 }
 
-fn feature_nees(belief: &Belief, features: &[Point3<f64>]) -> Option<f64> {
-    let each: Option<Vec<f64>> = features
-        .iter()
-        .enumerate()
-        .map(|(j, p)| {
-            let error = belief.state.features[j] - p;
-            let factor = belief.covariance.feature(FeatureId(j)).cholesky()?;
+fn pose_nees(belief: &Belief, error: &[f64]) -> Option<f64> {
+    let error = Vector6::from(*error.first_chunk::<POSE_DIM>()?);
+    let factor = belief.covariance.pose().cholesky()?;
+    Some(error.dot(&factor.solve(&error)))
+}
+
+fn feature_nees(belief: &Belief, error: &[f64]) -> Option<f64> {
+    let each: Option<Vec<f64>> = (0..belief.state.features.len())
+        .map(FeatureId)
+        .map(|feature| {
+            let error = Vector3::from(*error.get(feature_offset(feature)..)?.first_chunk::<3>()?);
+            let factor = belief.covariance.feature(feature).cholesky()?;
             Some(error.dot(&factor.solve(&error)))
         })
         .collect();
@@ -94,10 +104,16 @@ pub(super) fn mean(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use adslam_estimator::{ErrorState, EulerError};
     use approx::assert_relative_eq;
-    use nalgebra::{Matrix6, Vector3, Vector6};
+    use nalgebra::{Matrix6, Point3};
 
-    fn truth() -> (Pose, Vec<Point3<f64>>) {
+    fn measured(belief: &Belief, truth: &State) -> StepMetrics {
+        let error = EulerError::error(&belief.state, truth);
+        measure_step(belief, truth, &error).unwrap()
+    }
+
+    fn truth() -> State {
         let pose = Pose::from_vector(&Vector6::new(0.1, 0.2, 3.1, 1.0, 2.0, 3.0));
         let features = vec![
             Point3::new(1.0, 0.0, 0.0),
@@ -105,34 +121,38 @@ mod tests {
             Point3::new(0.0, 0.0, 3.0),
             Point3::origin(),
         ];
-        (pose, features)
+        State { pose, features }
     }
 
     #[test]
     fn errors_by_hand() {
-        let (pose, features) = truth();
+        let truth = truth();
+        let State { pose, features } = truth.clone();
         // The yaw differs across the wrap: 3.1 + 0.12 is beyond π.
         let estimate = pose.plus(&Vector6::new(0.0, 0.0, 0.12, 0.03, 0.04, 0.0));
         let off: Vec<Point3<f64>> = features.iter().map(|p| p + Vector3::x() * 0.2).collect();
         let belief = Belief::initial(estimate, off, &(Matrix6::identity() * 0.01), 0.1).unwrap();
-        let metrics = measure_step(&belief, &pose, &features).unwrap();
+        let metrics = measured(&belief, &truth);
         assert_relative_eq!(metrics.pose_error, 0.13, epsilon = 1e-12);
         assert_relative_eq!(metrics.orientation_error, 0.12, epsilon = 1e-12);
         assert_relative_eq!(metrics.position_error, 0.05, epsilon = 1e-12);
         assert_relative_eq!(metrics.pose_nees.unwrap(), 1.69, epsilon = 1e-10);
         assert_relative_eq!(metrics.feature_nees.unwrap(), 4.0, epsilon = 1e-10);
+        let joint = (1.69 + 4.0 * 4.0) / 18.0;
+        assert_relative_eq!(metrics.joint_nees_per_dof.unwrap(), joint, epsilon = 1e-10);
         assert_relative_eq!(metrics.feature_errors[2], 0.2, epsilon = 1e-12);
         assert!(metrics.relative_feature_error < 1e-12);
     }
 
     #[test]
     fn moving_everything_together_leaves_no_relative_error() {
-        let (pose, features) = truth();
+        let truth = truth();
+        let State { pose, features } = truth.clone();
         let motion = Isometry3::new(Vector3::new(0.3, -0.2, 0.1), Vector3::new(0.0, 0.1, 0.3));
         let moved = features.iter().map(|p| motion * p).collect();
         let belief =
             Belief::initial(moved_pose(&pose, &motion), moved, &Matrix6::zeros(), 0.1).unwrap();
-        let metrics = measure_step(&belief, &pose, &features).unwrap();
+        let metrics = measured(&belief, &truth);
         assert!(metrics.pose_error > 0.3);
         assert!(metrics.relative_pose_error < 1e-12);
         assert_eq!(metrics.pose_nees, None, "an exactly known pose has no NEES");

@@ -1,5 +1,6 @@
 //! One run in a few numbers: RUN of tables.json.
 
+use adslam_estimator::{Nis, UpdateReport};
 use serde::{Deserialize, Serialize};
 
 use super::step::{StepMetrics, mean};
@@ -29,6 +30,18 @@ pub struct RunSummary {
     pub pose_nees_mean: Option<f64>,
     /// Mean feature NEES over the steps that have one; 3 is consistent.
     pub feature_nees_mean: Option<f64>,
+    /// Mean NEES of the whole state over its dimension, over the steps that have one; 1 is consistent.
+    #[serde(default)]
+    pub joint_nees_per_dof_mean: Option<f64>,
+    /// NIS of all feature measurements that were used, over their numbers; 1 is consistent.
+    #[serde(default)]
+    pub feature_nis_per_dof: Option<f64>,
+    /// NIS of all structure measurements, over their numbers; 1 is consistent.
+    #[serde(default)]
+    pub structure_nis_per_dof: Option<f64>,
+    /// Feature measurements that the filter's gate kept out.
+    #[serde(default)]
+    pub rejected_measurements: usize,
     /// Steps with the true robot inside the true object.
     pub steps_inside_object: usize,
     /// Steps with the true robot nearer to the true surface than the clearance, or inside.
@@ -83,6 +96,10 @@ pub struct SummaryBuilder {
     relative_feature_errors: Vec<f64>,
     pose_nees: Vec<f64>,
     feature_nees: Vec<f64>,
+    joint_nees: Vec<f64>,
+    feature_nis: Nis,
+    structure_nis: Nis,
+    rejected: usize,
     last_feature_errors: Vec<f64>,
     seen: Vec<bool>,
     observed: usize,
@@ -130,6 +147,7 @@ impl SummaryBuilder {
             .push(metrics.relative_feature_error);
         self.pose_nees.extend(metrics.pose_nees);
         self.feature_nees.extend(metrics.feature_nees);
+        self.joint_nees.extend(metrics.joint_nees_per_dof);
         self.last_feature_errors.clone_from(&metrics.feature_errors);
         self.inside += usize::from(signed_distance < 0.0);
         self.below_clearance += usize::from(signed_distance < clearance);
@@ -139,6 +157,18 @@ impl SummaryBuilder {
     pub fn add_decision(&mut self, milliseconds: f64, compromised: bool) {
         self.decision_ms.push(milliseconds);
         self.compromised += usize::from(compromised);
+    }
+
+    /// Adds what an update said about the filter.
+    pub fn add_update(&mut self, report: &UpdateReport) {
+        for (sum, nis) in [
+            (&mut self.feature_nis, report.features),
+            (&mut self.structure_nis, report.structure),
+        ] {
+            sum.value += nis.value;
+            sum.dof += nis.dof;
+        }
+        self.rejected += report.rejected;
     }
 
     /// The run as a whole.
@@ -158,12 +188,21 @@ impl SummaryBuilder {
             relative_feature_error_mean: mean(&self.relative_feature_errors),
             pose_nees_mean: mean_of_some(&self.pose_nees),
             feature_nees_mean: mean_of_some(&self.feature_nees),
+            joint_nees_per_dof_mean: mean_of_some(&self.joint_nees),
+            feature_nis_per_dof: per_dof(self.feature_nis),
+            structure_nis_per_dof: per_dof(self.structure_nis),
+            rejected_measurements: self.rejected,
             steps_inside_object: self.inside,
             steps_below_clearance: self.below_clearance,
             compromised_decisions: self.compromised,
             decision_ms: DecisionTimes::of(self.decision_ms),
         }
     }
+}
+
+/// Nothing where nothing was measured.
+fn per_dof(nis: Nis) -> Option<f64> {
+    (nis.dof > 0).then(|| nis.value / nis.dof as f64)
 }
 
 #[cfg(test)]
@@ -178,6 +217,7 @@ mod tests {
             feature_errors: vec![error, 3.0 * error],
             pose_nees: (error > 0.0).then_some(6.0),
             feature_nees: Some(3.0),
+            joint_nees_per_dof: None,
             relative_pose_error: error / 2.0,
             relative_feature_error: error,
         }
@@ -191,6 +231,13 @@ mod tests {
         builder.add_step(3, [0, 1], &metrics(0.6), -0.1, 0.3);
         builder.add_decision(1.0, false);
         builder.add_decision(3.0, true);
+        for value in [3.0, 9.0] {
+            builder.add_update(&UpdateReport {
+                features: Nis { value, dof: 6 },
+                structure: Nis::default(),
+                rejected: 2,
+            });
+        }
         let run = builder.finish(9);
         assert_eq!((run.seed, run.observed), (9, 3), "the start does not count");
         assert_eq!(run.steps_to_full_coverage, Some(3));
@@ -205,6 +252,9 @@ mod tests {
         );
         assert_eq!((run.steps_inside_object, run.steps_below_clearance), (1, 2));
         assert_eq!(run.pose_nees_mean, Some(6.0));
+        assert_eq!(run.feature_nis_per_dof, Some(1.0));
+        assert_eq!(run.structure_nis_per_dof, None);
+        assert_eq!(run.rejected_measurements, 4);
         assert_eq!(run.compromised_decisions, 1);
         assert_eq!(
             run.decision_ms,

@@ -10,6 +10,9 @@ use tempfile::{Builder, NamedTempFile};
 use crate::ExperimentError;
 use crate::diagnostics::InputError;
 
+/// How the names of unfinished files begin.
+const TEMPORARY_PREFIX: &str = ".adslam-";
+
 /// A file that is written beside its place and moved there by [`AtomicFile::commit`]. Dropped before
 /// that, it leaves what was there untouched.
 #[derive(Debug)]
@@ -26,11 +29,7 @@ impl AtomicFile {
     /// `path` is a folder, a device or a pipe, which must not be replaced by a file.
     pub fn create(path: &Path) -> Result<Self, ExperimentError> {
         refuse_other_than_file(path)?;
-        let folder = match path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        };
-        let file = readable_temporary(folder).map_err(ExperimentError::output(path))?;
+        let file = readable_temporary(folder_of(path)).map_err(ExperimentError::output(path))?;
         Ok(Self {
             path: path.to_owned(),
             file: BufWriter::new(file),
@@ -109,12 +108,38 @@ impl AtomicFile {
                 Err(error) => Err(ExperimentError::output(&path)(error)),
             })
             .collect::<Result<Vec<_>, _>>()?;
+        let mut folders = Vec::new();
         for (path, file) in complete {
             file.persist(&path)
                 .map_err(|error| ExperimentError::output(&path)(error.error))?;
+            let folder = folder_of(&path).to_owned();
+            if !folders.contains(&folder) {
+                folders.push(folder);
+            }
+        }
+        for folder in folders {
+            make_names_durable(&folder);
         }
         Ok(())
     }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Makes the names of the files in a folder survive a loss of power, as their content does, where the system
+/// can: some file systems cannot, and do not need it.
+fn make_names_durable(folder: &Path) {
+    #[cfg(unix)]
+    if let Ok(folder) = fs::File::open(folder) {
+        let _ = folder.sync_all();
+    }
+    #[cfg(not(unix))]
+    let _ = folder;
 }
 
 fn on_disk(file: BufWriter<NamedTempFile>) -> io::Result<NamedTempFile> {
@@ -143,6 +168,7 @@ impl Seek for AtomicFile {
 /// private to their owner, and results are not.
 fn readable_temporary(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = Builder::new();
+    builder.prefix(TEMPORARY_PREFIX);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -177,11 +203,27 @@ pub fn prepare_folder(folder: &Path) -> Result<(), InputError> {
         );
     }
     fs::create_dir_all(folder)
-        .and_then(|()| NamedTempFile::new_in(folder).map(drop))
+        .and_then(|()| readable_temporary(folder).map(drop))
         .map_err(|error| {
             about(format!("the folder {shown} cannot be written to: {error}"))
                 .with_help("give a folder that can be written to with --out")
         })
+}
+
+/// Removes the unfinished files that processes of this program, killed on the way, left in a folder in which no
+/// other is at work.
+pub(crate) fn remove_leftovers(folder: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let is_ours = entry
+            .file_name()
+            .to_string_lossy()
+            .starts_with(TEMPORARY_PREFIX);
+        if is_ours && entry.file_type()?.is_file() {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -3,9 +3,12 @@
 mod atomic;
 mod features;
 mod steps;
+mod table_file;
 mod tum;
 
+pub(crate) use atomic::remove_leftovers;
 pub use atomic::{AtomicFile, prepare_folder};
 pub use features::{FeaturesFile, LastFeatures};
 pub use steps::StepsFile;
+pub use table_file::{Column, ColumnKind, TableFile};
 pub use tum::TumFile;

@@ -2,6 +2,7 @@
 
 mod batch;
 mod history;
+mod identity;
 mod planners;
 mod record;
 mod rest_object;
@@ -17,4 +18,5 @@ pub use planners::build_planner;
 pub use record::RunRecorder;
 pub(crate) use rest_object::{features_of, parted};
 pub use setup::Setup;
+pub(crate) use setup::gate;
 pub use simulate::{NoObserver, Observer, RunOutcome, StepView, simulate};

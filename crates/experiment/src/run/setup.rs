@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use adslam_deformation::ObjectMotion;
-use adslam_estimator::FilterNoise;
+use adslam_estimator::{Estimator, EstimatorError, EstimatorKind, FilterNoise, Parallelism};
 use adslam_models::{Control, EulerAngles, Pose, Sensor};
 use adslam_planning::{ActionSet, PlanningModel};
 use adslam_surface::{Mesh, Surface};
@@ -12,6 +12,7 @@ use nalgebra::{Point3, Vector3};
 use super::rest_object::{RestObject, blamed};
 use crate::diagnostics::InputError;
 use crate::scenario::{self, Scenario, Structure, Viewpoints, values};
+use crate::statistics::chi_squared;
 use crate::world::{DeformationNoise, WorldModel, WorldNoise};
 
 /// Everything that the runs of one scenario have in common.
@@ -27,6 +28,11 @@ pub struct Setup {
     pub known_motion: ObjectMotion,
     /// What the planners know; its noise is the filter's.
     pub planning: PlanningModel,
+    /// What follows robot and object.
+    pub estimator: EstimatorKind,
+    /// The largest squared distance, χ² with 3 degrees of freedom, at which the filter believes a feature
+    /// measurement; absent where it believes all.
+    pub gate: Option<f64>,
     /// The filter's sigma of the first feature positions, cm.
     pub initial_feature_sigma: f64,
     /// The control of the predetermined path.
@@ -82,6 +88,8 @@ impl Setup {
                 noise: world_noise(scenario, noise.initial_feature_sigma_cm),
             },
             planning,
+            estimator: scenario.filter.estimator.into(),
+            gate: scenario.filter.gate_probability.map(gate),
             initial_feature_sigma: noise.initial_feature_sigma_cm,
             predetermined: Control {
                 rotation: path.rotation_deg.map(f64::to_radians),
@@ -92,6 +100,16 @@ impl Setup {
             scenario: scenario.clone(),
         };
         setup.checked()
+    }
+
+    /// The filter, at the start of a run.
+    ///
+    /// # Errors
+    /// Sigmas that cannot be used, which no scenario lets through.
+    pub fn build_estimator(&self) -> Result<Box<dyn Estimator>, EstimatorError> {
+        let noise = self.planning.noise;
+        self.estimator
+            .build(noise, self.gate, Parallelism::Sequential)
     }
 
     /// r_t t + r_d d for each feature from step `n` to `n + 1`, as filter and planners know it, cm.
@@ -178,6 +196,11 @@ impl Setup {
             }
         }
     }
+}
+
+/// The squared distance that good measurements of a feature keep with this probability.
+pub(crate) fn gate(probability: values::Probability) -> f64 {
+    chi_squared::quantile(*probability, 3)
 }
 
 fn world_noise(scenario: &Scenario, initial_feature_sigma: f64) -> WorldNoise {

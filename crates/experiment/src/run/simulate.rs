@@ -3,9 +3,10 @@
 use std::time::Instant;
 
 use adslam_estimator::{
-    Belief, Ekf, EstimatorError, FeatureMeasurement, Measurements, StructureMeasurements,
+    Belief, Estimator, EstimatorError, FeatureMeasurement, Measurements, StructureMeasurements,
+    UpdateReport,
 };
-use adslam_models::{Control, FeatureId, Pose};
+use adslam_models::{Control, FeatureId, Pose, State};
 use adslam_planning::{Decision, Planner, PlanningError, Score, Situation, features_seen_in_pose};
 use adslam_surface::Surface;
 use nalgebra::{Matrix6, Point3, Vector3};
@@ -31,6 +32,8 @@ pub struct StepView<'a> {
     pub visible: &'a [FeatureId],
     /// The errors.
     pub metrics: &'a StepMetrics,
+    /// What the measurements said about the filter; none at the start.
+    pub update: Option<&'a UpdateReport>,
     /// Signed distance of the true robot from the true surface, cm, negative inside.
     pub surface_distance: f64,
     /// The decision that led here, and how long it took in ms; none at the start.
@@ -106,7 +109,7 @@ struct Run<'a> {
     name: RunName,
     world: World<'a>,
     sight: Sight,
-    ekf: Ekf,
+    estimator: Box<dyn Estimator>,
     belief: Belief,
     planner: Box<dyn Planner>,
     builder: SummaryBuilder,
@@ -123,6 +126,7 @@ struct Sight {
 struct Decided {
     decision: Decision,
     milliseconds: f64,
+    update: UpdateReport,
 }
 
 impl<'a> Run<'a> {
@@ -136,7 +140,7 @@ impl<'a> Run<'a> {
         let mut world = World::new(&setup.world, seed);
         let features = world.first_estimate();
         let sigma = setup.initial_feature_sigma;
-        let ekf = Ekf::new(setup.planning.noise).map_err(name.filter_failed(1))?;
+        let estimator = setup.build_estimator().map_err(name.filter_failed(1))?;
         let belief = Belief::initial(setup.world.start, features, &Matrix6::zeros(), sigma)
             .map_err(name.filter_failed(1))?;
         let deadline_ms = setup.scenario.deadline_ms(planner);
@@ -148,7 +152,7 @@ impl<'a> Run<'a> {
             builder: SummaryBuilder::new(world.features().len()),
             name,
             world,
-            ekf,
+            estimator,
             belief,
             planner,
             deadline_ms,
@@ -178,11 +182,13 @@ impl<'a> Run<'a> {
 
         self.world.advance(&decision.control);
         self.sight = Sight::of(&self.world, self.setup, &self.name)?;
-        self.filter(&decision.control, &feature_motion)
+        let update = self
+            .filter(&decision.control, &feature_motion)
             .map_err(self.name.filter_failed(n + 1))?;
         Ok(Decided {
             decision,
             milliseconds,
+            update,
         })
     }
 
@@ -191,7 +197,7 @@ impl<'a> Run<'a> {
         &mut self,
         control: &Control,
         feature_motion: &[Vector3<f64>],
-    ) -> Result<(), EstimatorError> {
+    ) -> Result<UpdateReport, EstimatorError> {
         let measured = self.world.measure(&self.sight.visible);
         let features: Vec<FeatureMeasurement> = measured
             .features
@@ -207,9 +213,9 @@ impl<'a> Run<'a> {
             features: &features,
             structure,
         };
-        self.ekf
+        self.estimator
             .predict(&mut self.belief, control, feature_motion)?;
-        self.ekf.update(&mut self.belief, &measurements)
+        self.estimator.update(&mut self.belief, &measurements)
     }
 
     /// Adds the present step to the summary and shows it to the observer.
@@ -220,7 +226,12 @@ impl<'a> Run<'a> {
     ) -> Result<(), ExperimentError> {
         let (world, belief, sight) = (&self.world, &self.belief, &self.sight);
         let step = world.step();
-        let metrics = measure_step(belief, world.pose(), world.features()).ok_or_else(|| {
+        let truth = State {
+            pose: *world.pose(),
+            features: world.features().to_vec(),
+        };
+        let error = self.estimator.error(&belief.state, &truth);
+        let metrics = measure_step(belief, &truth, &error).ok_or_else(|| {
             self.name
                 .not_simulated(step, "the estimate is not finite".to_owned())
         })?;
@@ -231,6 +242,7 @@ impl<'a> Run<'a> {
         if let Some(decided) = decided {
             self.builder
                 .add_decision(decided.milliseconds, decided.decision.compromised);
+            self.builder.add_update(&decided.update);
         }
         observer.step(&StepView {
             step,
@@ -239,6 +251,7 @@ impl<'a> Run<'a> {
             belief,
             visible: &sight.visible,
             metrics: &metrics,
+            update: decided.map(|decided| &decided.update),
             surface_distance: sight.surface_distance,
             decision: decided.map(|decided| (&decided.decision, decided.milliseconds)),
             scores: self.planner.scores(),

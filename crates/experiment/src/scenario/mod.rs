@@ -5,9 +5,12 @@
 //! `docs/scenario.md` is the reference for users.
 
 mod checks;
+mod estimators;
 mod motion;
+mod named;
 mod noise;
 mod object;
+mod overridden;
 mod planners;
 mod robot;
 #[cfg(test)]
@@ -22,15 +25,15 @@ use nalgebra::Point3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+pub use estimators::EstimatorName;
 pub use motion::{
     Anchored, AnchoredSinusoid, BackAndForthStep, Deformation, Direction, Motion, MotionBuildError,
     Rotation, Swing, Translation,
 };
+pub use named::{Named, UnknownName};
 pub use noise::{DeformationNoise, Filter, FilterNoise, Noise, Structure};
 pub use object::{LengthUnit, Mesh, MeshPlacement, Object, Phantom, Points, UnknownUnit};
-pub use planners::{
-    Combined, Global, Local, Nearest, PlannerName, Planners, Predetermined, UnknownPlanner,
-};
+pub use planners::{Combined, Global, Local, Nearest, PlannerName, Planners, Predetermined};
 pub use robot::{Actions, Robot, Sensor};
 use values::{Name, Steps};
 pub use viewpoints::{Fixed, Grid, Viewpoints};
@@ -134,6 +137,12 @@ impl Scenario {
     /// What that file says; overrides are not in it.
     pub fn text(&self) -> &str {
         self.document.text()
+    }
+
+    /// Every key that is written, overrides in place of what they override, as JSON: what tells two scenarios
+    /// apart, whatever their comments and their place.
+    pub fn keys(&self) -> serde_json::Value {
+        self.document.to_json()
     }
 
     /// The scenario as text, overrides apart.

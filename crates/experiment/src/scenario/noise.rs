@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::values::{AngleSigma, NonNegative, Positive, Truncation};
+use super::EstimatorName;
+use super::values::{AngleSigma, NonNegative, Positive, Probability, Truncation};
 
 /// The noise of the world: Gaussian, independent in each component. 0 is no noise.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
@@ -62,6 +63,11 @@ pub struct Filter {
     pub initial_feature_sigma_cm: Option<NonNegative>,
     /// Between which features differences are measured and used.
     pub structure: Structure,
+    /// What the filter takes for the error of a state.
+    pub estimator: EstimatorName,
+    /// The part of good feature measurements that pass the filter's χ² gate; one that is farther from what is
+    /// expected is not used. 0.999 is usual. Default: no gate, all are used.
+    pub gate_probability: Option<Probability>,
 }
 
 /// Which pairs of features structure measurements connect.

@@ -1,14 +1,12 @@
 //! `[planners]`: the parameters that each planner has in this world, and the planners' names.
 
 use std::fmt;
-use std::str::FromStr;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use thiserror::Error;
 
+use super::Named;
 use super::values::{Fraction, Many, NonNegative, Positive, Vec3};
-use crate::diagnostics::nearest;
 
 /// Parameters of every planner, so that all can be compared in this world.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
@@ -127,9 +125,19 @@ impl PlannerName {
         Self::Global,
         Self::Combined,
     ];
+}
 
-    /// The name used in files and on the command line.
-    pub const fn as_str(self) -> &'static str {
+impl fmt::Display for PlannerName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
+    }
+}
+
+impl Named for PlannerName {
+    const KIND: &'static str = "planner";
+    const ALL: &'static [Self] = &PlannerName::ALL;
+
+    fn as_str(self) -> &'static str {
         match self {
             Self::Predetermined => "predetermined",
             Self::Local => "local",
@@ -139,68 +147,10 @@ impl PlannerName {
     }
 }
 
-impl fmt::Display for PlannerName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.as_str())
-    }
-}
-
-/// A name that no planner has.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("no planner is called {given:?}; {}", self.advice())]
-pub struct UnknownPlanner {
-    given: String,
-}
-
-impl UnknownPlanner {
-    fn advice(&self) -> String {
-        let names = PlannerName::ALL.map(PlannerName::as_str);
-        match nearest(&self.given, names) {
-            Some(near) => format!("did you mean {near}? There are {}", names.join(", ")),
-            None => format!("there are {}", names.join(", ")),
-        }
-    }
-}
-
-impl FromStr for PlannerName {
-    type Err = UnknownPlanner;
-
-    fn from_str(given: &str) -> Result<Self, UnknownPlanner> {
-        Self::ALL
-            .into_iter()
-            .find(|name| name.as_str() == given)
-            .ok_or_else(|| UnknownPlanner {
-                given: given.to_owned(),
-            })
-    }
-}
-
 fn samples() -> Many {
     Many::default_of(50)
 }
 
 fn crossing_penalty() -> NonNegative {
     NonNegative::default_of(1.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_go_there_and_back() {
-        for name in PlannerName::ALL {
-            assert_eq!(name.to_string().parse(), Ok(name));
-        }
-    }
-
-    #[test]
-    fn an_unknown_name_is_answered_with_the_known_ones() {
-        let error = "combind".parse::<PlannerName>().unwrap_err().to_string();
-        assert!(error.contains("did you mean combined?"), "{error}");
-        assert!(
-            error.contains("predetermined, local, global, combined"),
-            "{error}"
-        );
-    }
 }

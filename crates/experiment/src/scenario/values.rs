@@ -12,7 +12,8 @@ pub use count::{Count, FeatureCount, FeatureNumber, Many, Seed, Steps};
 pub use list::{LONGEST_LIST, List, Triple, Vec3};
 pub use name::Name;
 pub use real::{
-    AngleSigma, Finite, Fraction, LARGEST, NonNegative, Positive, SMALLEST, Spacing, Truncation,
+    AngleSigma, Finite, Fraction, LARGEST, NonNegative, Positive, Probability, SMALLEST, Spacing,
+    Truncation,
 };
 use thiserror::Error;
 

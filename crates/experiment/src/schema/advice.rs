@@ -19,7 +19,10 @@ impl Advice {
         let root = root_schema::<T>();
         let mut paths = paths(&root);
         // Overrides are paths themselves.
-        paths.retain(|(path, _)| !path.contains("].set."));
+        let is_override = |path: &str| {
+            path.starts_with("set.") || path.starts_with("grid.") || path.contains("].set.")
+        };
+        paths.retain(|(path, _)| !is_override(path));
         Self { root, paths }
     }
 

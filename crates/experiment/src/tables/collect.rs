@@ -3,21 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use crate::ExperimentError;
-use crate::config::{Config, ExperimentPlan, MOST_RUNS, MOST_RUNS_IN_ALL, PublishedScenario};
-use crate::diagnostics::{InputError, nearest};
+use crate::config::{Config, ExperimentPlan, PublishedScenario, Selection};
+use crate::diagnostics::InputError;
 use crate::metrics::RunSummary;
 use crate::run::{Batch, BatchResult, Interrupt, RunHistory, RunOutcome, Setup};
-use crate::scenario::{Object, PlannerName};
+use crate::scenario::PlannerName;
 
-/// What of a configuration is run, and how often.
+/// What of a configuration is run, and what is kept of it.
 #[derive(Clone, Debug, Default)]
 pub struct TablesOptions {
-    /// Runs of each planner; the configuration's number where absent.
-    pub runs: Option<usize>,
-    /// Only the experiments with these labels; all where empty.
-    pub only: Vec<String>,
-    /// An STL, OBJ or PLY file for the object of every experiment whose object is a mesh or a phantom.
-    pub mesh: Option<PathBuf>,
+    /// What is run.
+    pub selection: Selection,
     /// Whether the first run of each planner is kept step by step.
     pub record: bool,
 }
@@ -50,7 +46,7 @@ pub struct Tables {
     pub experiments: Vec<ExperimentTables>,
     /// The configuration and then its scenarios, each once.
     pub sources: Vec<SourceFile>,
-    /// The mesh that took the place of the scenarios' own, as [`TablesOptions::mesh`] says.
+    /// The mesh that took the place of the scenarios' own, as [`Selection::mesh`] says.
     pub mesh: Option<PathBuf>,
     /// Runs that failed, and why.
     pub failures: Vec<String>,
@@ -115,58 +111,16 @@ impl TablePlan {
             runs,
             first_seed,
             experiments,
-        } = config;
-        let runs = options.runs.unwrap_or(runs);
-        let about = |message: String| InputError::about_file(&path, message);
-        if !(1..=MOST_RUNS).contains(&runs) {
-            return Err(
-                about(format!("there are {runs} runs of each planner to do"))
-                    .with_help(format!("ask for 1 to {MOST_RUNS} with --runs")),
-            );
-        }
-        let labels: Vec<&str> = experiments.iter().map(|plan| plan.label.as_str()).collect();
-        if let Some(unknown) = options
-            .only
-            .iter()
-            .find(|wish| !labels.contains(&wish.as_str()))
-        {
-            let message = format!("{} has no experiment called {unknown:?}", path.display());
-            let known = labels.join(", ");
-            return Err(about(message).with_help(match nearest(unknown, labels) {
-                Some(near) => format!("did you mean {near}? There are {known}"),
-                None => format!("there are {known}"),
-            }));
-        }
-        let wanted: Vec<ExperimentPlan> = experiments
-            .into_iter()
-            .filter(|plan| options.only.is_empty() || options.only.contains(&plan.label))
-            .collect();
-        let in_all = wanted.iter().map(|plan| plan.planners.len()).sum::<usize>() * runs;
-        if in_all > MOST_RUNS_IN_ALL {
-            return Err(
-                about(format!("there are {in_all} runs to do in all")).with_help(format!(
-                    "ask for fewer of each planner, or for fewer experiments with --only: at most \
-                     {MOST_RUNS_IN_ALL} runs"
-                )),
-            );
-        }
-        let mut sources = vec![SourceFile {
-            path: path.clone(),
-            text,
-        }];
+        } = config.select(&options.selection)?;
+        let mut sources = vec![SourceFile { path, text }];
         let mut ready = Vec::new();
-        for mut plan in wanted {
+        for plan in experiments {
             let (path, text) = (plan.scenario.path(), plan.scenario.text());
             if sources.iter().all(|known| known.path != path) {
                 sources.push(SourceFile {
                     path: path.to_owned(),
                     text: text.to_owned(),
                 });
-            }
-            if let (Some(file), Object::Mesh(_) | Object::Phantom(_)) =
-                (&options.mesh, &plan.scenario.object)
-            {
-                plan.scenario = plan.scenario.with_mesh(file);
             }
             let setup = Setup::new(&plan.scenario)?;
             ready.push((plan, setup));
@@ -177,7 +131,7 @@ impl TablePlan {
             first_seed,
             record: options.record,
             sources,
-            mesh: options.mesh.clone(),
+            mesh: options.selection.mesh.clone(),
             experiments: ready,
         })
     }
@@ -278,16 +232,7 @@ impl Tables {
     /// [`ExperimentError::Interrupted`] where runs were not done, else [`ExperimentError::Runs`]
     /// where some failed.
     pub fn into_result(self) -> Result<(), ExperimentError> {
-        if self.interrupted {
-            return Err(ExperimentError::Interrupted);
-        }
-        if self.failures.is_empty() {
-            Ok(())
-        } else {
-            Err(ExperimentError::Runs {
-                failures: self.failures,
-            })
-        }
+        ExperimentError::unless_complete(self.interrupted, self.failures)
     }
 
     /// Adds warnings that are not there yet: every seed of a scenario may give the same.

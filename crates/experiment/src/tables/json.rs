@@ -9,6 +9,7 @@ use crate::ExperimentError;
 use crate::config::PublishedScenario;
 use crate::metrics::RunSummary;
 use crate::output::AtomicFile;
+use crate::scenario::Named;
 
 #[derive(Serialize)]
 struct TablesJson<'a> {

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::Serializer;
 
-use crate::scenario::PlannerName;
+use crate::scenario::{Named, PlannerName};
 
 /// `value` to so many decimals. Numbers so large that they have no decimals stay as they are.
 pub(super) fn decimals(value: f64, count: i32) -> f64 {

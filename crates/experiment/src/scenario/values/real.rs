@@ -136,6 +136,14 @@ number!(
     "is no fraction"
 );
 number!(
+    /// A probability that is neither impossible nor certain.
+    Probability,
+    SMALLEST..=1.0 - SMALLEST,
+    or_zero: false,
+    "a number above 0 and below 1, such as 0.999",
+    "is not between 0 and 1"
+);
+number!(
     /// Where a Gaussian is cut off, in multiples of its sigma: 0.5 to 100. Below that the rest has
     /// little in common with a Gaussian, and drawing from it by rejection takes long.
     Truncation,

@@ -1,0 +1,79 @@
+//! `adslam consistency`
+
+use adslam_experiment::ExperimentError;
+use adslam_experiment::consistency::{ConsistencyPlan, ConsistencyResults, Measure, Verdict};
+use adslam_experiment::output::prepare_folder;
+use adslam_experiment::run::Interrupt;
+use adslam_experiment::scenario::{EstimatorName, Named};
+
+use super::study::finish;
+use crate::ConsistencyArgs;
+use crate::answer::Answer;
+
+/// Does the runs of a consistency study that are not there yet, and says what they show.
+///
+/// # Errors
+/// Bad input, runs that failed, files that cannot be written, or an interruption.
+pub fn consistency(args: &ConsistencyArgs, interrupt: &Interrupt) -> Result<(), ExperimentError> {
+    Answer::give(args.json, |answer| judge(args, interrupt, answer))
+}
+
+fn judge(
+    args: &ConsistencyArgs,
+    interrupt: &Interrupt,
+    answer: &mut Answer,
+) -> Result<(), ExperimentError> {
+    let estimators: &[EstimatorName] = match args.estimators.as_slice() {
+        [] => EstimatorName::ALL,
+        some => some,
+    };
+    let plan = ConsistencyPlan::load(&args.config, &args.selection.selection(), estimators)?;
+    answer.warn(&plan.warnings());
+    let mut study = plan.open(&args.out)?;
+    let end = finish(
+        &mut study,
+        &args.out,
+        answer,
+        interrupt,
+        ConsistencyPlan::run,
+    )?;
+    let results = ConsistencyResults::new(&plan, study.records());
+    let mut files = results.write(&args.out)?;
+    let figures = args.out.join("figures");
+    prepare_folder(&figures)?;
+    for label in results.labels() {
+        for measure in [Measure::PoseNees, Measure::FeatureNis] {
+            let figure = adslam_figures::consistency(label, measure, &results)?;
+            files.extend(figure.write(&figures)?);
+        }
+    }
+    answer.set_files(&files);
+    answer.set("cells", &results.cells);
+    for cell in &results.cells {
+        let of_pose = cell.judgement(Measure::PoseNees);
+        let pose = of_pose.map_or("no pose NEES".to_owned(), |judged| {
+            let said = judged.verdict;
+            format!("pose NEES {:.2} of 6, {said}", 6.0 * judged.mean)
+        });
+        let others: Vec<String> = cell
+            .judgements
+            .iter()
+            .filter(|j| j.measure != Measure::PoseNees && j.verdict != Verdict::Consistent)
+            .map(|j| format!("{} {}", j.measure.title(), j.verdict))
+            .collect();
+        let others = match others.as_slice() {
+            [] => String::new(),
+            some => format!("; {}", some.join(", ")),
+        };
+        answer.say(format_args!(
+            "{}, {}, {}: {pose}{others}",
+            cell.label, cell.estimator, cell.planner
+        ));
+    }
+    answer.say(format_args!(
+        "wrote consistency.md and {} other files to {}",
+        files.len() - 1,
+        args.out.display()
+    ));
+    end.into_result()
+}

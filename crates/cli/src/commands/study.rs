@@ -1,0 +1,60 @@
+//! What the commands that do studies have in common.
+
+use std::path::Path;
+
+use adslam_experiment::ExperimentError;
+use adslam_experiment::run::Interrupt;
+use adslam_experiment::study::{Study, StudyEnd, StudyUnit};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::answer::Answer;
+use crate::print::tell;
+use crate::progress;
+
+/// Does the runs of a study that are not in its folder yet, with a bar, and tells how many there are.
+///
+/// # Errors
+/// A record that cannot be written, or an interruption; failed runs are in what is returned.
+pub(super) fn finish<'a, R, W>(
+    study: &mut Study<'a, R>,
+    folder: &Path,
+    answer: &mut Answer,
+    interrupt: &Interrupt,
+    work: W,
+) -> Result<StudyEnd, ExperimentError>
+where
+    R: Serialize + DeserializeOwned + Send,
+    W: Fn(&StudyUnit<'a>, &Interrupt) -> Result<R, ExperimentError> + Sync,
+{
+    let (total, there) = (study.units().len(), study.done());
+    answer.set("runs", total);
+    answer.set("runs_there_already", there);
+    if there > 0 {
+        answer.say(format_args!("{there} of {total} runs were there already"));
+    }
+    let bar = progress::bar(total, "runs").with_position(there as u64);
+    bar.reset_eta();
+    let end = study.finish(interrupt, &|| bar.inc(1), work);
+    bar.finish_and_clear();
+    let done = study.done();
+    answer.set("runs_done", done);
+    if done < total {
+        let out = folder.display();
+        tell(format_args!(
+            "{done} of {total} runs are kept in {out}; the same command does the others"
+        ));
+    }
+    let end = end?;
+    answer.set("complete", done == total);
+    answer.set("failures", &end.failures);
+    if end.interrupted {
+        if !end.failures.is_empty() {
+            // The interruption is what the command ends with, and tells nothing of these.
+            let failures = end.failures.clone();
+            tell(ExperimentError::Runs { failures });
+        }
+        end.clone().into_result()?;
+    }
+    Ok(end)
+}

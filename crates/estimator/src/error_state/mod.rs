@@ -1,0 +1,90 @@
+//! What an estimator takes for the error of a state.
+//!
+//! Whatever the error is, to first order it is linear in the paper's, δ = χ ⊖ χ̂ with angles and positions
+//! subtracted: τ = T(χ̂) δ. The covariance is kept in δ for every estimator, P_τ = T P Tᵀ; all Jacobians
+//! follow by the chain rule at the same state, so propagation and the conditioning on measurements
+//! are the same computation. Two things are left, and they are what an [`ErrorState`] is: where a
+//! correction leads, which is not linear, and that P_τ, not P, stays the same when the estimate then
+//! moves from χ̂ to χ̂⁺: P ← D P Dᵀ with D = T(χ̂⁺)⁻¹ T(χ̂).
+
+mod euler;
+mod right_invariant;
+mod so3;
+
+use adslam_models::{EulerAngles, Pose, State};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+pub use euler::EulerError;
+pub use right_invariant::RightInvariantError;
+pub use so3::So3Error;
+
+/// The error coordinates of an estimator. Vectors δ and errors are in the order of the state, radians and cm,
+/// in the paper's coordinates: the δ that is T(χ̂)⁻¹ τ.
+pub trait ErrorState: Clone + std::fmt::Debug + Send + 'static {
+    /// χ̂ ← χ̂ ⊞ δ, where `delta` has an entry for each of the state.
+    fn retract(state: &mut State, delta: &[f64]);
+
+    /// The δ with `truth` = `estimate` ⊞ δ: the error of which the belief's covariance is that.
+    #[must_use]
+    fn error(estimate: &State, truth: &State) -> Vec<f64>;
+
+    /// D − I when the estimate moved from `before` to `after`. Only its columns of Θ are not zero: a block
+    /// of 3 × 3 each for the rows of Θ, of x, and of each feature. Left empty where D = I.
+    fn reset(before: &State, after: &State, blocks: &mut Vec<Matrix3<f64>>);
+}
+
+/// δΘ of a rotation θ in the world, W(Θ) δΘ = θ; NaN at pitch ±π/2, where angles cannot follow.
+fn angles_of(theta: &Vector3<f64>, orientation: EulerAngles) -> Vector3<f64> {
+    inverse_axes(orientation) * theta
+}
+
+/// W(Θ)⁻¹.
+fn inverse_axes(orientation: EulerAngles) -> Matrix3<f64> {
+    orientation
+        .rotation_axes()
+        .try_inverse()
+        .unwrap_or_else(|| Matrix3::repeat(f64::NAN))
+}
+
+/// The rotation from the estimate to the truth, in the world.
+fn rotation_between(estimate: &Pose, truth: &Pose) -> Rotation3<f64> {
+    truth.orientation.rotation() * estimate.orientation.rotation().inverse()
+}
+
+/// The orientation turned by `rotation` in the world. Its angles are those nearest to the old ones, as they
+/// may be beyond pitch ±π/2.
+fn turned(orientation: EulerAngles, rotation: &Rotation3<f64>) -> EulerAngles {
+    EulerAngles::nearest_of_rotation(&(rotation * orientation.rotation()), orientation)
+}
+
+/// An error from its angles, then positions.
+fn joined(angles: Vector3<f64>, positions: impl Iterator<Item = Vector3<f64>>) -> Vec<f64> {
+    std::iter::once(angles)
+        .chain(positions)
+        .flat_map(|v| [v.x, v.y, v.z])
+        .collect()
+}
+
+/// The robot's position and all features.
+fn positions(state: &State) -> impl Iterator<Item = &nalgebra::Point3<f64>> {
+    std::iter::once(&state.pose.position).chain(&state.features)
+}
+
+/// Each position with its part of δ, to change it.
+fn positions_with<'a>(
+    state: &'a mut State,
+    delta: &'a [f64],
+) -> impl Iterator<Item = (&'a mut nalgebra::Point3<f64>, Vector3<f64>)> {
+    let (parts, _) = delta.get(3..).unwrap_or_default().as_chunks::<3>();
+    std::iter::once(&mut state.pose.position)
+        .chain(&mut state.features)
+        .zip(parts.iter().copied().map(Vector3::from))
+}
+
+/// δΘ of δ.
+fn angles_in(delta: &[f64]) -> Vector3<f64> {
+    delta
+        .first_chunk::<3>()
+        .copied()
+        .map_or_else(Vector3::zeros, Vector3::from)
+}

@@ -1,0 +1,159 @@
+//! A configuration with several estimators, made ready to run.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::ConsistencyRecord;
+use crate::ExperimentError;
+use crate::config::{Config, ExperimentPlan, Selection};
+use crate::diagnostics::InputError;
+use crate::run::{Interrupt, Setup, simulate};
+use crate::scenario::{EstimatorName, Named, PlannerName};
+use crate::study::{Study, StudyPlan, StudyUnit};
+
+/// Every planner of every experiment with each of the estimators.
+#[derive(Debug)]
+pub struct ConsistencyPlan {
+    pub(super) title: String,
+    pub(super) runs: usize,
+    pub(super) first_seed: u64,
+    pub(super) points: Vec<Point>,
+}
+
+/// An experiment with one estimator.
+#[derive(Debug)]
+pub(super) struct Point {
+    pub(super) plan: ExperimentPlan,
+    pub(super) estimator: EstimatorName,
+    pub(super) setup: Setup,
+}
+
+/// Runs with the same experiment, estimator and planner.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cell<'a> {
+    pub(super) point: &'a Point,
+    pub(super) planner: PlannerName,
+}
+
+impl ConsistencyPlan {
+    /// Reads the configuration at `path`, builds what is selected of it, and sets each of the estimators in
+    /// place of the scenarios' own.
+    ///
+    /// # Errors
+    /// Anything wrong with a file, an unknown label, or no runs to do.
+    pub fn load(
+        path: &Path,
+        selection: &Selection,
+        estimators: &[EstimatorName],
+    ) -> Result<Self, InputError> {
+        let config = Config::load(path)?.select(selection)?;
+        let mut points = Vec::new();
+        for plan in config.experiments {
+            let setup = Setup::new(&plan.scenario)?;
+            points.extend(estimators.iter().map(|&estimator| Point {
+                plan: plan.clone(),
+                estimator,
+                setup: Setup {
+                    estimator: estimator.into(),
+                    ..setup.clone()
+                },
+            }));
+        }
+        Ok(Self {
+            title: config.title,
+            runs: config.runs,
+            first_seed: config.first_seed,
+            points,
+        })
+    }
+
+    /// How many runs there are in all.
+    #[must_use]
+    pub fn total_runs(&self) -> usize {
+        self.cells().count() * self.runs
+    }
+
+    /// What the user should know before running.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings: Vec<String> = Vec::new();
+        for warning in self.points.iter().flat_map(|point| &point.setup.warnings) {
+            if !warnings.contains(warning) {
+                warnings.push(warning.clone());
+            }
+        }
+        warnings
+    }
+
+    /// Begins the study in `folder`, or goes on with it.
+    ///
+    /// # Errors
+    /// As [`Study::open`].
+    pub fn open(&self, folder: &Path) -> Result<Study<'_, ConsistencyRecord>, ExperimentError> {
+        Study::open(folder, self.study())
+    }
+
+    /// Does one run: the work of the study.
+    ///
+    /// # Errors
+    /// As [`simulate`].
+    pub fn run(
+        unit: &StudyUnit<'_>,
+        interrupt: &Interrupt,
+    ) -> Result<ConsistencyRecord, ExperimentError> {
+        let mut record = ConsistencyRecord::default();
+        let outcome = simulate(unit.setup, unit.planner, unit.seed, interrupt, &mut record)?;
+        record.summary = Some(outcome.summary);
+        Ok(record)
+    }
+
+    /// Experiment by experiment, estimator by estimator, planner by planner.
+    pub(super) fn cells(&self) -> impl Iterator<Item = Cell<'_>> {
+        self.points.iter().flat_map(|point| {
+            let planners = point.plan.planners.iter();
+            planners.map(move |&planner| Cell { point, planner })
+        })
+    }
+
+    fn study(&self) -> StudyPlan<'_> {
+        let mut units = Vec::with_capacity(self.total_runs());
+        for (number, point) in self.points.iter().enumerate() {
+            for &planner in &point.plan.planners {
+                units.extend((0..self.runs as u64).map(|run| StudyUnit {
+                    point: number,
+                    setup: &point.setup,
+                    planner,
+                    seed: self.first_seed.wrapping_add(run),
+                }));
+            }
+        }
+        let points: Vec<Value> = self.points.iter().map(Point::identity).collect();
+        let identity = [
+            ("runs", json!(self.runs)),
+            ("first_seed", json!(self.first_seed)),
+            ("experiments", json!(points)),
+        ];
+        StudyPlan {
+            kind: "consistency",
+            identity: identity
+                .map(|(name, value)| (name.to_owned(), value))
+                .into_iter()
+                .collect(),
+            units,
+        }
+    }
+}
+
+impl Point {
+    fn identity(&self) -> Value {
+        let planners = self.plan.planners.iter().map(|planner| planner.as_str());
+        json!({
+            "label": self.plan.label,
+            "estimator": self.estimator,
+            "planners": planners.collect::<Vec<_>>(),
+            "scenario": self.plan.scenario.keys(),
+            "object_crc32": self.setup.object_checksum(),
+        })
+    }
+}

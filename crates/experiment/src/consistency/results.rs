@@ -1,0 +1,194 @@
+//! From the records of a consistency study to its tables.
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::{ConsistencyPlan, ConsistencyRecord, Judgement, Measure, markdown};
+use crate::ExperimentError;
+use crate::metrics::RunSummary;
+use crate::output::{AtomicFile, Column, ColumnKind, TableFile};
+use crate::scenario::{EstimatorName, Named, PlannerName};
+
+/// What a consistency study gave: made of its records alone.
+#[derive(Clone, Debug, Serialize)]
+pub struct ConsistencyResults {
+    /// The configuration's title.
+    pub title: String,
+    /// Runs of each cell that were asked for.
+    pub runs: usize,
+    /// The seed of the first of them.
+    pub first_seed: u64,
+    /// Experiment by experiment, estimator by estimator, planner by planner.
+    pub cells: Vec<ConsistencyCell>,
+}
+
+/// The runs of one experiment, estimator and planner.
+#[derive(Clone, Debug, Serialize)]
+pub struct ConsistencyCell {
+    /// The experiment.
+    pub label: String,
+    /// The estimator.
+    pub estimator: EstimatorName,
+    /// The planner.
+    #[serde(serialize_with = "as_str")]
+    pub planner: PlannerName,
+    /// Runs that were finished.
+    pub runs: usize,
+    /// Mean over runs and steps of eq. (11), radians and cm together.
+    pub pose_error: f64,
+    /// The same relative to the object.
+    pub relative_pose_error: f64,
+    /// Feature measurements that the gate kept out, in all runs.
+    pub rejected_measurements: usize,
+    /// What each measure says, of those that were taken.
+    pub judgements: Vec<Judgement>,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it")]
+fn as_str<S: serde::Serializer>(planner: &PlannerName, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(planner.as_str())
+}
+
+impl ConsistencyCell {
+    /// What one of the measures says.
+    #[must_use]
+    pub fn judgement(&self, measure: Measure) -> Option<&Judgement> {
+        self.judgements.iter().find(|j| j.measure == measure)
+    }
+}
+
+impl ConsistencyResults {
+    /// Of the records of a plan's study, in its order.
+    #[must_use]
+    pub fn new(plan: &ConsistencyPlan, records: &[Option<ConsistencyRecord>]) -> Self {
+        let cells: Vec<_> = plan.cells().zip(records.chunks(plan.runs)).collect();
+        let cells = cells.into_par_iter().map(|(cell, records)| {
+            let done: Vec<&ConsistencyRecord> = records.iter().flatten().collect();
+            let summaries = done.iter().filter_map(|record| record.summary.as_ref());
+            let mean = |value: fn(&RunSummary) -> f64| {
+                summaries.clone().map(value).sum::<f64>() / done.len() as f64
+            };
+            let judge = |measure| Judgement::of(measure, &done);
+            ConsistencyCell {
+                label: cell.point.plan.label.clone(),
+                estimator: cell.point.estimator,
+                planner: cell.planner,
+                runs: done.len(),
+                pose_error: mean(|run| run.pose_error_mean),
+                relative_pose_error: mean(|run| run.relative_pose_error_mean),
+                rejected_measurements: summaries.clone().map(|r| r.rejected_measurements).sum(),
+                judgements: Measure::ALL.into_iter().filter_map(judge).collect(),
+            }
+        });
+        Self {
+            title: plan.title.clone(),
+            runs: plan.runs,
+            first_seed: plan.first_seed,
+            cells: cells.collect(),
+        }
+    }
+
+    /// The labels of the experiments, each once, in order.
+    #[must_use]
+    pub fn labels(&self) -> Vec<&str> {
+        let mut labels: Vec<&str> = self.cells.iter().map(|cell| cell.label.as_str()).collect();
+        labels.dedup();
+        labels
+    }
+
+    /// Writes into `folder` and returns the paths: consistency.md for people, consistency.json with all there
+    /// is, verdicts and steps as CSV and JSON lines.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Output`]; what was there is then unchanged.
+    pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, ExperimentError> {
+        let text = markdown::markdown(self);
+        let mut files = vec![AtomicFile::with_content(
+            &folder.join("consistency.md"),
+            text.as_bytes(),
+        )?];
+        let mut json = AtomicFile::create(&folder.join("consistency.json"))?;
+        json.add_json(self)?;
+        files.push(json);
+        files.extend(self.write_verdicts(folder)?.finish()?);
+        files.extend(self.write_steps(folder)?.finish()?);
+        let paths = files.iter().map(|file| file.path().to_owned()).collect();
+        AtomicFile::commit_all(files)?;
+        Ok(paths)
+    }
+
+    /// A row for each cell and measure.
+    fn write_verdicts(&self, folder: &Path) -> Result<TableFile, ExperimentError> {
+        let numbers = [
+            "mean_per_dof",
+            "low_per_dof",
+            "high_per_dof",
+            "steps_inside",
+        ];
+        let mut columns = cell_columns();
+        columns.extend(numbers.map(|name| Column::new(name, ColumnKind::Number)));
+        columns.push(Column::new("verdict", ColumnKind::Text));
+        let mut table = TableFile::create(folder, "verdicts", columns)?;
+        for (cell, judgement) in self.judgements() {
+            let mut row = cell_values(cell, judgement.measure);
+            row.extend([
+                json!(judgement.mean),
+                json!(judgement.interval.low),
+                json!(judgement.interval.high),
+                json!(judgement.steps_inside),
+                json!(judgement.verdict.to_string()),
+            ]);
+            table.add(row)?;
+        }
+        Ok(table)
+    }
+
+    /// A row for each cell, measure and step.
+    fn write_steps(&self, folder: &Path) -> Result<TableFile, ExperimentError> {
+        let mut columns = cell_columns();
+        columns.push(Column::new("step", ColumnKind::Integer));
+        let numbers = ["mean_per_dof", "low_per_dof", "high_per_dof"];
+        columns.extend(numbers.map(|name| Column::new(name, ColumnKind::Number)));
+        let mut table = TableFile::create(folder, "steps", columns)?;
+        for (cell, judgement) in self.judgements() {
+            for step in &judgement.steps {
+                let mut row = cell_values(cell, judgement.measure);
+                row.extend([
+                    json!(step.step),
+                    json!(step.mean),
+                    json!(step.interval.low),
+                    json!(step.interval.high),
+                ]);
+                table.add(row)?;
+            }
+        }
+        Ok(table)
+    }
+
+    fn judgements(&self) -> impl Iterator<Item = (&ConsistencyCell, &Judgement)> {
+        self.cells
+            .iter()
+            .flat_map(|cell| cell.judgements.iter().map(move |j| (cell, j)))
+    }
+}
+
+fn cell_columns() -> Vec<Column> {
+    let mut columns: Vec<Column> = ["experiment", "estimator", "planner", "measure"]
+        .map(|name| Column::new(name, ColumnKind::Text))
+        .into();
+    columns.push(Column::new("runs", ColumnKind::Integer));
+    columns
+}
+
+fn cell_values(cell: &ConsistencyCell, measure: Measure) -> Vec<Value> {
+    vec![
+        json!(cell.label),
+        json!(cell.estimator),
+        json!(cell.planner.as_str()),
+        json!(measure),
+        json!(cell.runs),
+    ]
+}

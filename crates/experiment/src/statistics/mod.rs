@@ -1,0 +1,36 @@
+//! What many runs say: means with confidence intervals, and paired tests between planners.
+//!
+//! Nothing here assumes a distribution. All random draws come from generators with fixed seeds of their own,
+//! so the same numbers always give the same result; no seed of a run is touched.
+
+mod bootstrap;
+pub mod chi_squared;
+mod holm;
+mod paired;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha12Rng;
+
+pub use bootstrap::{CONFIDENCE, Interval, MeanEstimate, RESAMPLES};
+pub use holm::holm;
+pub use paired::{MOST_ENUMERATED, PairedComparison, SIGN_FLIPS};
+
+/// What random numbers are for in the statistics; each purpose has a stream of its own.
+#[derive(Clone, Copy)]
+enum Draws {
+    Bootstrap = 0,
+    SignFlips = 1,
+}
+
+/// The generator of one purpose, always from its start.
+fn generator(purpose: Draws) -> ChaCha12Rng {
+    const SEED: u64 = 0x6164_736c_616d;
+    let mut generator = ChaCha12Rng::seed_from_u64(SEED);
+    generator.set_stream(purpose as u64);
+    generator
+}
+
+/// The arithmetic mean; NaN of nothing.
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}

@@ -1,0 +1,184 @@
+//! Many runs that survive: a plan, a folder, and a file for each finished run.
+//!
+//! A study does every unit of its plan once and keeps what each gave in a file of its own, written whole or not
+//! at all. Killed at any moment and opened again, it does what is missing and nothing twice. What is made of a
+//! study should be made of its [records](Study::records) alone, which come in the order of the plan: then it is
+//! the same, byte for byte, however often the study was stopped and on however many threads it ran.
+//!
+//! The folder has `study.lock`, which the working process holds locked, `plan.json`, which says what the study
+//! is, and `records/`.
+
+mod difference;
+mod folder;
+mod plan;
+mod record;
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+pub use plan::{StudyPlan, StudyUnit};
+
+use crate::ExperimentError;
+use crate::run::{Interrupt, Progress};
+use folder::StudyFolder;
+use record::{RecordFile, encode};
+
+/// A study at work: its folder is locked until this is dropped.
+#[derive(Debug)]
+pub struct Study<'a, R> {
+    folder: StudyFolder,
+    units: Vec<StudyUnit<'a>>,
+    records: Vec<Option<R>>,
+}
+
+/// How the work on a study ended.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct StudyEnd {
+    /// Units that failed, in the order of the plan, and why; they are tried again next time.
+    pub failures: Vec<String>,
+    /// Whether the user stopped it before all units were done.
+    pub interrupted: bool,
+}
+
+impl StudyEnd {
+    /// An error if not every unit was done.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Interrupted`] where the user stopped it, else [`ExperimentError::Runs`] where units
+    /// failed.
+    pub fn into_result(self) -> Result<(), ExperimentError> {
+        ExperimentError::unless_complete(self.interrupted, self.failures)
+    }
+}
+
+/// What became of a unit that had no record.
+enum Outcome<R> {
+    Done(R),
+    Failed(String),
+    /// Not begun or not finished, as the user or a failed write stopped the work.
+    Stopped,
+    NotWritten(ExperimentError),
+}
+
+impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
+    /// Begins the study of `plan` in `folder`, or goes on with it: locks the folder, makes sure that it holds
+    /// no other study, removes what a killed process left half-written, and reads the records that are there.
+    ///
+    /// # Errors
+    /// [`InputError`](crate::diagnostics::InputError) where another process works in the folder, where it holds
+    /// another study, and where a record is damaged or foreign; nothing is changed then.
+    /// [`ExperimentError::Output`] where it cannot be written to.
+    pub fn open(folder: &Path, plan: StudyPlan<'a>) -> Result<Self, ExperimentError> {
+        let (folder, units) = StudyFolder::open(folder, plan)?;
+        let records: Vec<_> = units
+            .par_iter()
+            .map(|unit| folder.record(unit).read())
+            .collect();
+        let records = records.into_iter().collect::<Result<_, _>>()?;
+        Ok(Self {
+            folder,
+            units,
+            records,
+        })
+    }
+
+    /// The units, in the order of the plan.
+    #[must_use]
+    pub fn units(&self) -> &[StudyUnit<'a>] {
+        &self.units
+    }
+
+    /// What each unit gave, in the order of the plan; none where it has not been done.
+    #[must_use]
+    pub fn records(&self) -> &[Option<R>] {
+        &self.records
+    }
+
+    /// How many units have been done.
+    #[must_use]
+    pub fn done(&self) -> usize {
+        self.records.iter().flatten().count()
+    }
+
+    /// Does the units that have no record, in parallel on rayon's threads, each with `work`; calls `progress`
+    /// after each. A unit that fails does not stop the others, and is tried again next time.
+    ///
+    /// `work` should look at the [`Interrupt`] that it is given and then return
+    /// [`ExperimentError::Interrupted`].
+    ///
+    /// # Errors
+    /// [`ExperimentError::Output`] where a record cannot be written; no further unit is begun then, and the
+    /// records that were written stay.
+    pub fn finish<W>(
+        &mut self,
+        interrupt: &Interrupt,
+        progress: Progress<'_>,
+        work: W,
+    ) -> Result<StudyEnd, ExperimentError>
+    where
+        W: Fn(&StudyUnit<'a>, &Interrupt) -> Result<R, ExperimentError> + Sync,
+    {
+        let missing = self.records.iter().enumerate();
+        let missing = missing.filter(|(_, record)| record.is_none());
+        let missing: Vec<usize> = missing.map(|(index, _)| index).collect();
+        let (folder, units) = (&self.folder, &self.units);
+        let cannot_write = AtomicBool::new(false);
+        let outcomes: Vec<Outcome<R>> = missing
+            .par_iter()
+            .with_max_len(1)
+            .map(|&index| {
+                if interrupt.requested() || cannot_write.load(Ordering::Relaxed) {
+                    return Outcome::Stopped;
+                }
+                let unit = &units[index];
+                let outcome = done(&folder.record(unit), unit, || work(unit, interrupt));
+                match &outcome {
+                    Outcome::Done(_) | Outcome::Failed(_) => progress(),
+                    Outcome::NotWritten(_) => cannot_write.store(true, Ordering::Relaxed),
+                    Outcome::Stopped => {}
+                }
+                outcome
+            })
+            .collect();
+        let mut end = StudyEnd::default();
+        let mut not_written = None;
+        for (index, outcome) in missing.into_iter().zip(outcomes) {
+            match outcome {
+                Outcome::Done(record) => self.records[index] = Some(record),
+                Outcome::Failed(reason) => end.failures.push(reason),
+                Outcome::Stopped => end.interrupted = true,
+                Outcome::NotWritten(error) => not_written = not_written.or(Some(error)),
+            }
+        }
+        not_written.map_or(Ok(end), Err)
+    }
+}
+
+/// Does a unit and writes its record, which is returned as it is read back: what is made of a record does not
+/// depend on when it was written.
+fn done<R: Serialize + DeserializeOwned>(
+    file: &RecordFile<'_>,
+    unit: &StudyUnit<'_>,
+    work: impl FnOnce() -> Result<R, ExperimentError>,
+) -> Outcome<R> {
+    let failed = |reason: String| Outcome::Failed(format!("[{}] {reason}", unit.key()));
+    let record = match work() {
+        Ok(record) => record,
+        Err(ExperimentError::Interrupted) => return Outcome::Stopped,
+        Err(error @ ExperimentError::Output { .. }) => return Outcome::NotWritten(error),
+        Err(error) => return failed(error.to_string()),
+    };
+    match encode(&record) {
+        Ok((json, record)) => match file.write(&json) {
+            Ok(()) => Outcome::Done(record),
+            Err(error) => Outcome::NotWritten(error),
+        },
+        Err(cause) => failed(format!("its result cannot be kept as JSON: {cause}")),
+    }
+}

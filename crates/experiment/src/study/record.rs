@@ -1,0 +1,125 @@
+//! The file of one record: a line that says what it is, and a line with the record.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::folder::checksum;
+use crate::ExperimentError;
+use crate::diagnostics::InputError;
+use crate::output::AtomicFile;
+
+const FORMAT: &str = "adslam-record";
+/// Larger records are not ours: a million steps in a dozen numbers take some hundred megabytes.
+const LARGEST_RECORD: u64 = 1 << 30;
+
+/// The first line.
+#[derive(Serialize, Deserialize)]
+struct Header {
+    format: String,
+    version: u32,
+    /// Checksum of the study's plan.
+    study: String,
+    unit: String,
+    /// Of the second line.
+    crc32: String,
+}
+
+/// Where the record of a unit lies, or will.
+pub(super) struct RecordFile<'a> {
+    path: PathBuf,
+    study: &'a str,
+    unit: String,
+}
+
+/// The record as a line of JSON, and as it is read back from that.
+pub(super) fn encode<R>(record: &R) -> Result<(String, R), serde_json::Error>
+where
+    R: Serialize + DeserializeOwned,
+{
+    let json = serde_json::to_string(record)?;
+    let record = serde_json::from_str(&json)?;
+    Ok((json, record))
+}
+
+impl<'a> RecordFile<'a> {
+    /// Of a unit, in the folder of the records of a study.
+    pub(super) fn new(folder: &Path, study: &'a str, unit: String) -> Self {
+        Self {
+            path: folder.join(Self::name(&unit)),
+            study,
+            unit,
+        }
+    }
+
+    /// The name of the file of a unit.
+    pub(super) fn name(unit: &str) -> String {
+        format!("{unit}.jsonl")
+    }
+
+    /// Writes the record, given as a line of JSON.
+    pub(super) fn write(&self, json: &str) -> Result<(), ExperimentError> {
+        let header = Header {
+            format: FORMAT.to_owned(),
+            version: 1,
+            study: self.study.to_owned(),
+            unit: self.unit.clone(),
+            crc32: checksum(json.as_bytes()),
+        };
+        let mut file = AtomicFile::create(&self.path)?;
+        file.add_json_line(&header)?;
+        file.add(json)?;
+        file.add("\n")?;
+        file.commit()
+    }
+
+    /// Reads the record; none if there is none yet.
+    pub(super) fn read<R: DeserializeOwned>(&self) -> Result<Option<R>, InputError> {
+        let unreadable = |error| InputError::unreadable(&self.path, error);
+        let file = match File::open(&self.path) {
+            Ok(file) => file,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(unreadable(error)),
+        };
+        let mut bytes = Vec::new();
+        file.take(LARGEST_RECORD)
+            .read_to_end(&mut bytes)
+            .map_err(unreadable)?;
+        let text = str::from_utf8(&bytes).map_err(|_| self.damaged("it is not text"))?;
+        let (header, record) = text
+            .split_once('\n')
+            .and_then(|(header, rest)| Some((header, rest.strip_suffix('\n')?)))
+            .ok_or_else(|| self.damaged("it is cut short"))?;
+        let header: Header = serde_json::from_str(header)
+            .map_err(|error| self.damaged(&format!("its first line: {error}")))?;
+        if header.format != FORMAT || header.version != 1 {
+            return Err(self.damaged("its first line is not that of a record of this version"));
+        }
+        if header.study != self.study || header.unit != self.unit {
+            let message = format!("{} is a record of another study", self.path.display());
+            return Err(
+                InputError::about_file(&self.path, message).with_help(format!(
+                    "move it out of the folder; the run {} is then done here",
+                    self.unit
+                )),
+            );
+        }
+        if header.crc32 != checksum(record.as_bytes()) {
+            return Err(self.damaged("its checksum is wrong"));
+        }
+        serde_json::from_str(record)
+            .map(Some)
+            .map_err(|error| self.damaged(&format!("its second line: {error}")))
+    }
+
+    fn damaged(&self, reason: &str) -> InputError {
+        let message = format!("{} is damaged: {reason}", self.path.display());
+        InputError::about_file(&self.path, message).with_help(format!(
+            "remove it and give the command again: the run {} is then done anew, and no other",
+            self.unit
+        ))
+    }
+}

@@ -1,0 +1,196 @@
+//! table.md: the means that matter most, and which planners differ.
+
+use std::fmt::Write;
+
+use comfy_table::{CellAlignment, Table, presets};
+use serde_json::Value;
+
+use super::SweepResults;
+use super::point::Comparison;
+use crate::statistics::MeanEstimate;
+
+/// A metric that people are shown.
+struct Shown {
+    metric: &'static str,
+    title: &'static str,
+    /// Digits behind the point.
+    digits: usize,
+}
+
+const SHOWN: [Shown; 7] = [
+    Shown {
+        metric: "relative_pose_error_mean",
+        title: "Object-relative pose error, mean over the steps (cm, rad)",
+        digits: 3,
+    },
+    Shown {
+        metric: "relative_feature_error_mean",
+        title: "Object-relative feature error, mean over the steps (cm)",
+        digits: 3,
+    },
+    Shown {
+        metric: "pose_error_mean",
+        title: "Pose error, mean over the steps (cm, rad)",
+        digits: 3,
+    },
+    Shown {
+        metric: "feature_error_mean",
+        title: "Feature error at the last step, mean over the features (cm)",
+        digits: 3,
+    },
+    Shown {
+        metric: "observed",
+        title: "Observed feature times",
+        digits: 1,
+    },
+    Shown {
+        metric: "steps_to_full_coverage",
+        title: "Steps to see all features, of the runs that do",
+        digits: 1,
+    },
+    Shown {
+        metric: "pose_nees_mean",
+        title: "Pose NEES, mean over the steps (6 is consistent)",
+        digits: 2,
+    },
+];
+
+/// Differences whose corrected p-value is at most this are listed.
+const LEVEL: f64 = 0.05;
+
+/// The tables as Markdown.
+pub(super) fn markdown(results: &SweepResults<'_>) -> String {
+    let sweep = &results.plan.sweep;
+    let mut text = format!("# {}\n\n", sweep.title);
+    let missing = results.missing();
+    if missing > 0 {
+        let _ = writeln!(text, "**Incomplete: {missing} runs failed.**\n");
+    }
+    let last_seed = sweep.first_seed.wrapping_add(results.plan.runs as u64 - 1);
+    let _ = writeln!(
+        text,
+        "{} runs of each planner at each point of `{}`, seeds {} to {last_seed}. In each cell: the mean, and in \
+         brackets its 95 % bootstrap interval. Differences are taken between runs of the same seed; their p-values \
+         come from sign-flip randomisation tests, by Holm's method corrected for the pairs of planners at a point.\n",
+        results.plan.runs, sweep.scenario.name, sweep.first_seed,
+    );
+    for shown in &SHOWN {
+        let Some(metric) = results.metrics.iter().position(|name| name == shown.metric) else {
+            continue;
+        };
+        let _ = writeln!(text, "## {}\n", shown.title);
+        let _ = writeln!(text, "{}\n", means(results, metric, shown.digits));
+        text += &differences(results, metric, shown.digits);
+    }
+    text
+}
+
+/// A row for each point, a column for each planner.
+fn means(results: &SweepResults<'_>, metric: usize, digits: usize) -> Table {
+    let planners = results.plan.sweep.planners.iter().map(ToString::to_string);
+    let mut table = started(results, planners);
+    for (index, point) in results.points.iter().enumerate() {
+        let cells = point.planners.iter().map(|planner| {
+            let mean = planner.means[metric].as_ref();
+            let text = mean.map_or("–".to_owned(), |mean| estimate(mean, digits));
+            match mean.map_or(0, |mean| mean.count) {
+                count if count < planner.done => {
+                    format!("{text}, {count} of {} runs", planner.done)
+                }
+                _ => text,
+            }
+        });
+        table.add_row(point_cells(results, index).into_iter().chain(cells));
+    }
+    aligned(table, results)
+}
+
+/// The pairs of planners that differ, and how many do not.
+fn differences(results: &SweepResults<'_>, metric: usize, digits: usize) -> String {
+    let planners = &results.plan.sweep.planners;
+    if planners.len() < 2 {
+        return String::new();
+    }
+    let heads = ["planners", "mean difference", "p (Holm)"];
+    let mut table = started(results, heads.map(ToOwned::to_owned));
+    let (mut listed, mut compared) = (0, 0);
+    for (index, point) in results.points.iter().enumerate() {
+        for Comparison {
+            first,
+            second,
+            result,
+        } in &point.comparisons[metric]
+        {
+            let Some(result) = result else { continue };
+            compared += 1;
+            if result.p_holm > LEVEL {
+                continue;
+            }
+            listed += 1;
+            let cells = [
+                format!("{} − {}", planners[*first], planners[*second]),
+                estimate(&result.paired.difference, digits),
+                format!("{:.5}", result.p_holm),
+            ];
+            table.add_row(point_cells(results, index).into_iter().chain(cells));
+        }
+    }
+    let said = format!(
+        "{listed} of {compared} differences between planners have a corrected p-value of at most {LEVEL}"
+    );
+    match listed {
+        0 => format!("{said}.\n\n"),
+        _ => format!("{said}:\n\n{}\n\n", aligned(table, results)),
+    }
+}
+
+/// A table whose first columns say which point it is.
+fn started(results: &SweepResults<'_>, heads: impl IntoIterator<Item = String>) -> Table {
+    let mut table = Table::new();
+    let mut of_point = vec!["point".to_owned()];
+    of_point.extend(
+        results
+            .plan
+            .sweep
+            .varied
+            .iter()
+            .map(|key| format!("`{key}`")),
+    );
+    table
+        .load_style(presets::ASCII_MARKDOWN)
+        .set_header(of_point.into_iter().chain(heads));
+    table
+}
+
+fn aligned(mut table: Table, results: &SweepResults<'_>) -> Table {
+    let of_point = 1 + results.plan.sweep.varied.len();
+    for column in table.column_iter_mut().skip(of_point) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+fn point_cells(results: &SweepResults<'_>, index: usize) -> Vec<String> {
+    let point = &results.plan.sweep.points[index];
+    let label = point.label.as_ref();
+    let mut cells = vec![label.map_or((index + 1).to_string(), |label| {
+        format!("{} {label}", index + 1)
+    })];
+    cells.extend(point.values.iter().map(|value| match value {
+        None => "–".to_owned(),
+        Some(Value::String(text)) => text.clone(),
+        Some(other) => other.to_string().replace('|', r"\|"),
+    }));
+    cells
+}
+
+fn estimate(estimate: &MeanEstimate, digits: usize) -> String {
+    let MeanEstimate { mean, interval, .. } = estimate;
+    match interval {
+        None => format!("{mean:.digits$}"),
+        Some(interval) => {
+            let (low, high) = (interval.low, interval.high);
+            format!("{mean:.digits$} ({low:.digits$} to {high:.digits$})")
+        }
+    }
+}

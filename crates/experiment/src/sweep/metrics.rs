@@ -1,0 +1,20 @@
+//! The numbers of a run by name.
+
+use serde_json::{Map, Value};
+
+use crate::metrics::RunSummary;
+
+/// The keys of a summary that are no result: the seed, and times, which differ from run to run.
+const NO_RESULTS: [&str; 2] = ["seed", "decision_ms"];
+
+/// The metrics of a run by the names that they have in summary.json, in the same order: numbers, or null where a
+/// run has none.
+pub(super) fn metrics(summary: &RunSummary) -> Map<String, Value> {
+    let Ok(Value::Object(mut keys)) = serde_json::to_value(summary) else {
+        return Map::new();
+    };
+    keys.retain(|key, value| {
+        !NO_RESULTS.contains(&key.as_str()) && (value.is_number() || value.is_null())
+    });
+    keys
+}

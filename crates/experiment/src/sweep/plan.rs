@@ -1,0 +1,171 @@
+//! A sweep made ready to run.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+use super::Sweep;
+use crate::ExperimentError;
+use crate::config::checked_runs;
+use crate::diagnostics::InputError;
+use crate::metrics::RunSummary;
+use crate::run::{Interrupt, NoObserver, Setup, simulate};
+use crate::scenario::Named;
+use crate::study::{Study, StudyPlan, StudyUnit};
+
+/// A sweep made ready to run: the object of every point built.
+#[derive(Debug)]
+pub struct SweepPlan {
+    pub(super) sweep: Sweep,
+    pub(super) runs: usize,
+    setups: Vec<Setup>,
+}
+
+/// What is kept of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SweepRecord {
+    /// Its numbers.
+    pub summary: RunSummary,
+    /// What the user should know of it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
+}
+
+impl SweepPlan {
+    /// Reads the sweep at `path` and builds its points; with another number of runs, if one is given.
+    ///
+    /// # Errors
+    /// Anything wrong with a file, or too many runs.
+    pub fn load(path: &Path, runs: Option<usize>) -> Result<Self, InputError> {
+        let sweep = Sweep::load(path)?;
+        if let Some(runs) = runs {
+            let about = |message: String| InputError::about_file(path, message);
+            checked_runs(path, runs)?;
+            if sweep.runs_in_all(runs).is_none() {
+                return Err(about(sweep.too_many(runs)).with_help("ask for fewer with --runs"));
+            }
+        }
+        Self::new(sweep, runs)
+    }
+
+    /// Builds the points of a sweep.
+    ///
+    /// # Errors
+    /// An object that cannot be built, or a robot that starts inside it.
+    pub(crate) fn new(sweep: Sweep, runs: Option<usize>) -> Result<Self, InputError> {
+        let built: Vec<_> = sweep
+            .points
+            .par_iter()
+            .map(|point| Setup::new(&point.scenario))
+            .collect();
+        Ok(Self {
+            runs: runs.unwrap_or(sweep.runs),
+            setups: built.into_iter().collect::<Result<_, _>>()?,
+            sweep,
+        })
+    }
+
+    /// The sweep.
+    #[must_use]
+    pub const fn sweep(&self) -> &Sweep {
+        &self.sweep
+    }
+
+    /// How many runs there are in all.
+    #[must_use]
+    pub fn total_runs(&self) -> usize {
+        self.setups.len() * self.sweep.planners.len() * self.runs
+    }
+
+    /// What the user should know before running, each once.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        distinct(self.setups.iter().flat_map(|setup| &setup.warnings))
+    }
+
+    /// Begins the sweep in `folder`, or goes on with it.
+    ///
+    /// # Errors
+    /// As [`Study::open`].
+    pub fn open(&self, folder: &Path) -> Result<Study<'_, SweepRecord>, ExperimentError> {
+        Study::open(folder, self.study())
+    }
+
+    /// Does one run: the work of the sweep's study.
+    ///
+    /// # Errors
+    /// As [`simulate`].
+    pub fn run(
+        unit: &StudyUnit<'_>,
+        interrupt: &Interrupt,
+    ) -> Result<SweepRecord, ExperimentError> {
+        let outcome = simulate(
+            unit.setup,
+            unit.planner,
+            unit.seed,
+            interrupt,
+            &mut NoObserver,
+        )?;
+        Ok(SweepRecord {
+            summary: outcome.summary,
+            warnings: outcome.warnings,
+        })
+    }
+
+    /// The runs: point by point, planner by planner, seed by seed.
+    fn study(&self) -> StudyPlan<'_> {
+        let mut units = Vec::with_capacity(self.total_runs());
+        for (point, setup) in self.setups.iter().enumerate() {
+            for &planner in &self.sweep.planners {
+                for run in 0..self.runs as u64 {
+                    let seed = self.sweep.first_seed.wrapping_add(run);
+                    units.push(StudyUnit {
+                        point,
+                        setup,
+                        planner,
+                        seed,
+                    });
+                }
+            }
+        }
+        StudyPlan {
+            kind: "sweep",
+            identity: self.identity(),
+            units,
+        }
+    }
+
+    fn identity(&self) -> Map<String, Value> {
+        let points = self.sweep.points.iter().zip(&self.setups);
+        let points: Vec<Value> = points
+            .map(|(point, setup)| {
+                json!({ "set": point.overrides, "object_crc32": setup.object_checksum() })
+            })
+            .collect();
+        let planners: Vec<&str> = self
+            .sweep
+            .planners
+            .iter()
+            .map(|planner| planner.as_str())
+            .collect();
+        let parts = [
+            ("runs", json!(self.runs)),
+            ("first_seed", json!(self.sweep.first_seed)),
+            ("planners", json!(planners)),
+            ("scenario", self.sweep.scenario.keys()),
+            ("points", json!(points)),
+        ];
+        parts
+            .map(|(name, value)| (name.to_owned(), value))
+            .into_iter()
+            .collect()
+    }
+}
+
+/// Each text once, in order.
+pub(super) fn distinct<'a>(texts: impl Iterator<Item = &'a String>) -> Vec<String> {
+    let mut seen = std::collections::HashSet::new();
+    texts.filter(|text| seen.insert(*text)).cloned().collect()
+}
