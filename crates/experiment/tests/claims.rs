@@ -25,7 +25,11 @@ fn refused<T>(read: impl Fn() -> Result<T, InputError>, limit: &str) {
     let mut said = String::new();
     let memory = measure(|| {
         let error = read().err().unwrap();
-        said = format!("{error}; {}", error.remedy().unwrap_or_default());
+        said = format!(
+            "{}; {}",
+            error.message(),
+            error.remedy().unwrap_or_default()
+        );
     });
     assert!(said.contains(limit), "{said}");
     assert!(memory.bytes_max < 16 * MIB, "{said}: {memory:?}");
