@@ -1,5 +1,7 @@
 //! Helpers of the tests that span the crates; the tests themselves are in `tests/`.
 
+pub mod readers;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

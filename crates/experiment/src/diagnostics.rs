@@ -6,6 +6,7 @@ mod key_path;
 mod kind;
 mod overlay;
 mod overrides;
+mod text_file;
 
 use std::fmt::Display;
 use std::io;
@@ -20,6 +21,7 @@ pub use explain::nearest;
 pub(crate) use key_path::json_at;
 pub use kind::FileKind;
 pub(crate) use overlay::Layer;
+pub(crate) use text_file::read_text;
 
 /// Input that cannot be used: a file that cannot be read, or whose content is wrong.
 ///
@@ -32,14 +34,17 @@ pub(crate) use overlay::Layer;
 pub struct InputError(Box<Details>);
 
 #[derive(Debug, Error, Diagnostic)]
-#[error("{message}")]
+#[error("{message}{place}")]
 struct Details {
     message: String,
+    /// Where it is, in words, where the text is too long to show.
+    place: String,
     path: PathBuf,
     #[source_code]
     text: Option<NamedSource<String>>,
     #[label("{label}")]
     span: Option<SourceSpan>,
+    line_and_column: Option<(usize, usize)>,
     label: String,
     #[help]
     help: Option<String>,
@@ -52,9 +57,11 @@ impl InputError {
     pub fn about_file(path: &Path, message: impl Display) -> Self {
         Self(Box::new(Details {
             message: message.to_string(),
+            place: String::new(),
             path: path.to_owned(),
             text: None,
             span: None,
+            line_and_column: None,
             label: "here".to_owned(),
             help: None,
             cause: None,
@@ -75,16 +82,27 @@ impl InputError {
 
     /// Something is wrong in `text`, the content of the file at `path`, at the bytes `span`.
     ///
-    /// A span that does not fit into the text is cut to what does.
+    /// A span that does not fit into the text is cut to what does, and one over many lines to the first
+    /// of them. Where the lines are too long to be shown, the message says where they are.
     pub fn in_text(path: &Path, text: &str, span: Range<usize>, message: impl Display) -> Self {
         let start = floor_char_boundary(text, span.start);
         let end = floor_char_boundary(text, span.end).max(start);
+        let end = end.min(start + bytes_of_lines(&text[start..], MOST_LINES_SHOWN));
+        let (line, column) = line_and_column(text, start);
         let mut error = Self::about_file(path, message);
-        error.0.text = Some(NamedSource::new(
-            path.display().to_string(),
-            text.to_owned(),
-        ));
         error.0.span = Some((start, end - start).into());
+        error.0.line_and_column = Some((line, column));
+        // A line before and one after are shown with them.
+        let from = text[..start].rmatch_indices('\n').nth(1);
+        let from = from.map_or(0, |(at, _)| at);
+        if end - from + bytes_of_lines(&text[end..], 2) > MOST_BYTES_SHOWN {
+            error.0.place = format!(" (line {line}, column {column})");
+        } else {
+            error.0.text = Some(NamedSource::new(
+                path.display().to_string(),
+                text.to_owned(),
+            ));
+        }
         error
     }
 
@@ -139,17 +157,33 @@ impl InputError {
     /// Line and column, from 1, of the place that is to blame, if it is a part of the file; columns
     /// count characters.
     pub fn line_and_column(&self) -> Option<(usize, usize)> {
-        let text = self.0.text.as_ref()?.inner();
-        let before = text.get(..self.span()?.start)?;
-        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        let line = before.matches('\n').count() + 1;
-        Some((line, before[line_start..].chars().count() + 1))
+        self.0.line_and_column
     }
 
-    /// The text that is to blame, as it stands in the file: what the caret points at.
+    /// The text that is to blame, as it stands in the file: what the caret points at. None where that is
+    /// too long to be shown.
     pub fn pointed_at(&self) -> Option<&str> {
         self.0.text.as_ref()?.inner().get(self.span()?)
     }
+}
+
+/// Lines that a report points at, at most.
+const MOST_LINES_SHOWN: usize = 8;
+/// Bytes of the lines that a report shows, at most: a screen or two.
+const MOST_BYTES_SHOWN: usize = 4_000;
+
+/// How many bytes the first `count` lines of `text` have, the end of the last not among them.
+fn bytes_of_lines(text: &str, count: usize) -> usize {
+    let end = text.match_indices('\n').nth(count - 1);
+    end.map_or(text.len(), |(at, _)| at)
+}
+
+/// Line and column of a byte of `text`, from 1; columns count characters.
+fn line_and_column(text: &str, at: usize) -> (usize, usize) {
+    let before = &text[..at];
+    let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+    let line = before.matches('\n').count() + 1;
+    (line, before[line_start..].chars().count() + 1)
 }
 
 /// The last character boundary at or before `index`.

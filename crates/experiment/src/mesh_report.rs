@@ -3,11 +3,11 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use adslam_surface::{Inspection, Mesh, MeshFile, SurfaceError, pick_features};
+use adslam_surface::{Inspection, Mesh, MeshFile, SurfaceError};
 use serde::Serialize;
 
 use crate::diagnostics::InputError;
-use crate::run::parted;
+use crate::run::{features_of, parted};
 use crate::scenario::LengthUnit;
 
 /// An object whose largest extent is not within these bounds, cm, was hardly meant.
@@ -68,7 +68,7 @@ impl MeshReport {
     /// # Errors
     /// When the file cannot be read as a mesh at all. That a mesh will not serve is no error here.
     pub fn read(path: &Path, unit: LengthUnit, features: usize) -> Result<Self, InputError> {
-        let file = MeshFile::read(path).map_err(|error| {
+        let read = MeshFile::read(path).map_err(|error| {
             let text = error.to_string();
             let (message, remedy) = parted(&text);
             let error = InputError::about_file(path, message);
@@ -77,12 +77,18 @@ impl MeshReport {
                 None => error,
             }
         })?;
+        Ok(Self::of(read, path, unit, features))
+    }
+
+    /// Looks at what was read from the file at `path`, as [`MeshReport::read`] does.
+    #[must_use]
+    pub fn of(read: MeshFile, path: &Path, unit: LengthUnit, features: usize) -> Self {
         let MeshFile {
             format,
             is_binary,
             mesh,
             collapsed,
-        } = file;
+        } = read;
         let mesh = mesh.scaled_and_moved(unit.in_cm(), nalgebra::Vector3::zeros());
         let seen = Inspection::of(&mesh);
         let trouble = will_serve(&mesh, features).err();
@@ -115,7 +121,7 @@ impl MeshReport {
             notes: Vec::new(),
         };
         report.notes = report.remarks();
-        Ok(report)
+        report
     }
 
     /// An error if it will not serve.
@@ -184,7 +190,7 @@ impl MeshReport {
 /// What a scenario does with a mesh before it runs.
 fn will_serve(mesh: &Mesh, features: usize) -> Result<(), SurfaceError> {
     mesh.check_closed()?;
-    pick_features(mesh, features, 1).map(drop)
+    features_of(mesh, features, 1).map(drop)
 }
 
 impl fmt::Display for MeshReport {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::{MAX_COORDINATE_CM, MeshFormat};
+use crate::{MAX_COORDINATE_CM, MIN_COORDINATE_CM, MeshFormat};
 
 /// What can be wrong with points, faces, mesh files and requests. Points and faces are numbered
 /// from 0 and coordinates are in the unit of the input (cm unless a file says otherwise).
@@ -11,10 +11,10 @@ use crate::{MAX_COORDINATE_CM, MeshFormat};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SurfaceError {
-    /// A coordinate is NaN, infinite or too large for exact predicates.
+    /// A coordinate is NaN, infinite, or too large or too near to 0 for exact predicates.
     #[error(
-        "point {index} lies at {at:?}: every coordinate must be finite and within \
-         ±{MAX_COORDINATE_CM:e} cm; check the unit and the estimate that it comes from"
+        "point {index} lies at {at:?}: every coordinate must be finite, within \
+         ±{MAX_COORDINATE_CM:e} cm, and no nearer to 0 than {MIN_COORDINATE_CM:e} cm but 0; check the unit and the estimate that it comes from"
     )]
     UnusablePoint {
         /// Number of the point.

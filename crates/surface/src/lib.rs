@@ -14,7 +14,8 @@
 //! so that they hold for rays through edges and corners and for points on a common plane.
 //!
 //! No function panics, whatever it is given. Coordinates must be finite and at most
-//! [`MAX_COORDINATE_CM`] in size, which keeps every predicate free of overflow.
+//! [`MAX_COORDINATE_CM`] in size, and 0 or at least [`MIN_COORDINATE_CM`], which keeps every predicate free
+//! of overflow and underflow.
 
 mod clearance;
 mod edges;
@@ -50,9 +51,16 @@ use nalgebra::Point3;
 /// Largest absolute coordinate accepted anywhere in this crate, in cm (ten thousand kilometres).
 pub const MAX_COORDINATE_CM: f64 = 1e9;
 
+/// Least absolute coordinate accepted anywhere in this crate but 0, in cm. The lowest digit of a product of
+/// three such numbers is still a number, so that the predicates, which add up such products, stay exact.
+pub const MIN_COORDINATE_CM: f64 = 1e-90;
+
 /// Whether the predicates may be trusted with this point.
 fn is_usable(p: &Point3<f64>) -> bool {
-    p.iter().all(|c| c.abs() <= MAX_COORDINATE_CM)
+    p.iter().all(|c| {
+        let size = c.abs();
+        size == 0.0 || (MIN_COORDINATE_CM..=MAX_COORDINATE_CM).contains(&size)
+    })
 }
 
 /// Fails on the first point that [`is_usable`] refuses.

@@ -20,8 +20,9 @@ const TREE_FROM_FACES: usize = 128;
 ///
 /// Where many segments start at one place, a [`Fan`](crate::Fan) answers for all of them at once.
 ///
-/// Questions about positions that are not finite (or beyond
-/// [`MAX_COORDINATE_CM`](crate::MAX_COORDINATE_CM)) are answered on the safe side: the distance is
+/// Questions about positions that are not finite (or whose coordinates are beyond
+/// [`MAX_COORDINATE_CM`](crate::MAX_COORDINATE_CM) or below
+/// [`MIN_COORDINATE_CM`](crate::MIN_COORDINATE_CM)) are answered on the safe side: the distance is
 /// NaN, which is greater than no clearance; the segment crosses; nothing is seen.
 #[derive(Clone)]
 pub struct Surface {

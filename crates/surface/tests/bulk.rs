@@ -131,7 +131,7 @@ fn unusable_places_and_numbers_are_answered_on_the_safe_side() {
     let surface = hull(&polygon());
     let (mut fan, mut room) = (Fan::default(), Clearance::default());
     let good = p(-2.0, 0.0, 1.0);
-    for bad in [f64::NAN, f64::INFINITY, 1e300].map(|x| p(x, 0.0, 0.0)) {
+    for bad in [f64::NAN, f64::INFINITY, 1e300, 1e-91].map(|x| p(x, 0.0, 0.0)) {
         assert!(fan.seen(&surface, &bad, 0..14).is_empty());
         assert!(fan.free(&surface, &bad, &[good], [0]).is_empty());
         assert!(room.clear_ways(&surface, &bad, [good], 0.1).is_empty());

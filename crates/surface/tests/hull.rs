@@ -149,7 +149,7 @@ fn hull_errors_say_what_is_wrong() {
             ..
         }
     ));
-    for coordinate in [f64::NAN, f64::INFINITY, 1.1e9, -1e200] {
+    for coordinate in [f64::NAN, f64::INFINITY, 1.1e9, -1e200, -1e-91, 1e-300] {
         let mut points = cube();
         points[6].y = coordinate;
         let error = bad(&points);

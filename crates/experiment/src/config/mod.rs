@@ -26,6 +26,10 @@ use crate::scenario::values::{Count, List, Name, Seed};
 
 /// More runs of a planner are a mistake: their summaries would not fit into memory.
 pub const MOST_RUNS: usize = 100_000;
+/// More runs in all, of every planner in every experiment or at every point of a sweep, would take months.
+pub const MOST_RUNS_IN_ALL: usize = 1_000_000;
+/// More experiments are a mistake: the scenario of each is read and built before the first run.
+const MOST_EXPERIMENTS: usize = 1_000;
 /// How many times each planner runs in each experiment.
 pub(crate) type Runs = Count<1, { MOST_RUNS as u64 }>;
 
@@ -64,7 +68,7 @@ pub(crate) struct ConfigFile {
     /// The file of published results; its path counts from this file's folder. Default: none.
     #[schemars(extend("format" = "path"))]
     published: Option<PathBuf>,
-    /// What is run: an `[[experiments]]` for each.
+    /// What is run: an `[[experiments]]` for each, at most 1000.
     experiments: List<Experiment>,
 }
 
@@ -81,8 +85,8 @@ struct Experiment {
     planners: List<PlannerName>,
     /// The entry of the published results to print beside. Default: none.
     published: Option<Name>,
-    /// Overrides of the scenario's keys: each key is a path into the scenario, in quotes. Default:
-    /// none.
+    /// Overrides of the scenario's keys: each key is a path into the scenario, in quotes; at most
+    /// 1000. Default: none.
     // Only their being a table is looked at here: `Document` reads them in place.
     #[serde(default, rename = "set")]
     #[schemars(schema_with = "crate::schema::overrides")]
@@ -102,8 +106,22 @@ impl Config {
         Self::from_document(&document)
     }
 
+    /// Reads and checks a configuration from `text`, as if it were the content of the file at `path`.
+    ///
+    /// # Errors
+    /// As [`Config::load`].
+    pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
+        Self::from_document(&Document::parse(text, path)?)
+    }
+
     fn from_document(document: &Document) -> Result<Self, InputError> {
         let file: ConfigFile = document.deserialize()?;
+        let count = file.experiments.len();
+        if count > MOST_EXPERIMENTS {
+            return Err(document
+                .error_at("experiments[0]", format!("there are {count} experiments"))
+                .with_help(format!("write at most {MOST_EXPERIMENTS}")));
+        }
         let folder = document.path().parent().unwrap_or(Path::new(""));
         let published = match &file.published {
             None => None,

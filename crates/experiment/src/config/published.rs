@@ -112,6 +112,15 @@ impl Published {
         Self::from_document(&document)
     }
 
+    /// Reads and checks published results from `text`, as if it were the content of the file at
+    /// `path`.
+    ///
+    /// # Errors
+    /// As [`Published::load`].
+    pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
+        Self::from_document(&Document::parse(text, path)?)
+    }
+
     pub(super) fn from_document(document: &Document) -> Result<Self, InputError> {
         let published: Self = document.deserialize()?;
         for (scenario, tables) in &published.tables {

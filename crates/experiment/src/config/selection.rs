@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Config, ExperimentPlan, MOST_RUNS};
+use super::{Config, ExperimentPlan, MOST_RUNS, MOST_RUNS_IN_ALL};
 use crate::diagnostics::{InputError, nearest};
 use crate::scenario::Object;
 
@@ -31,7 +31,7 @@ impl Config {
     /// Keeps what is selected.
     ///
     /// # Errors
-    /// An unknown label, or no runs to do.
+    /// An unknown label, no runs to do, or too many.
     pub fn select(mut self, selection: &Selection) -> Result<Self, InputError> {
         self.runs = checked_runs(&self.path, selection.runs.unwrap_or(self.runs))?;
         let labels = self.experiments.iter().map(|plan| plan.label.as_str());
@@ -51,6 +51,17 @@ impl Config {
             selection.only.is_empty() || selection.only.contains(&plan.label)
         };
         self.experiments.retain(wanted);
+        let planners = self.experiments.iter().map(|plan| plan.planners.len());
+        let in_all = planners.sum::<usize>() * self.runs;
+        if in_all > MOST_RUNS_IN_ALL {
+            let message = format!("there are {in_all} runs to do in all");
+            return Err(
+                InputError::about_file(&self.path, message).with_help(format!(
+                    "ask for fewer of each planner, or for fewer experiments with --only: at most \
+                     {MOST_RUNS_IN_ALL} runs"
+                )),
+            );
+        }
         if let Some(file) = &selection.mesh {
             for plan in &mut self.experiments {
                 if let Object::Mesh(_) | Object::Phantom(_) = plan.scenario.object {

@@ -14,11 +14,12 @@ use toml::de::{DeString, DeTable, DeValue, Deserializer};
 
 use super::explain::{Surroundings, explain, explain_syntax};
 use super::overlay::Overlay;
-use super::{InputError, key_path};
+use super::{InputError, key_path, read_text};
 use crate::schema::Advice;
 
-/// Files above this size are not ours: the largest that a person writes has a few kilobytes.
-const LARGEST_FILE: u64 = 16 << 20;
+/// Files above this size are not ours: the largest that a person writes has a few kilobytes, and the
+/// longest lists that are allowed make a megabyte or two.
+const LARGEST_FILE: u64 = 4 << 20;
 
 /// A text and where it came from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -65,28 +66,8 @@ impl Document {
     /// # Errors
     /// When it cannot be read, is no text, is absurdly large, empty, or not TOML.
     pub(crate) fn read(path: &Path) -> Result<Self, InputError> {
-        let about = |message: String| InputError::about_file(path, message);
-        let unreadable = |cause| InputError::unreadable(path, cause);
-        let metadata = std::fs::metadata(path).map_err(unreadable)?;
-        let name = path.display();
-        if metadata.is_dir() {
-            return Err(about(format!("{name} is a folder, not a file"))
-                .with_help("give the path of a .toml file in it"));
-        }
-        if metadata.len() > LARGEST_FILE {
-            return Err(
-                about(format!("{name} has {} bytes", metadata.len())).with_help(
-                    "scenarios and configurations are short TOML texts; is it another file?",
-                ),
-            );
-        }
-        let bytes = std::fs::read(path).map_err(unreadable)?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let at = error.utf8_error().valid_up_to();
-            about(format!("{name} is not text: byte {at} is not UTF-8"))
-                .with_help("scenarios and configurations are TOML texts; is it another file?")
-        })?;
-        Self::parse(&text, path)
+        let remedy = "scenarios and configurations are short TOML texts; is it another file?";
+        Self::parse(&read_text(path, LARGEST_FILE, remedy)?, path)
     }
 
     /// The file that the document, overrides apart, came from.

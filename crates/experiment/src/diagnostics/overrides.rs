@@ -17,9 +17,13 @@ const CHOICES: [&str; 6] = [
     "known_motion.deformation",
 ];
 
+/// The longest path of an override; those of a scenario's keys are half as long.
+const LONGEST_PATH: usize = 16;
+
 /// Sets the key at `path` in `root` to `value`; `span` is where the path itself is written. Makes the tables on the way where they are
 /// missing. Fails, with the part of the path that is in the way, where the path leads through
-/// something that is neither a table nor an array with that element.
+/// something that is neither a table nor an array with that element, or is longer than any
+/// scenario's: tables in tables without end could not be let go of again.
 pub(super) fn set<'i>(
     root: &mut DeTable<'i>,
     path: &str,
@@ -32,6 +36,12 @@ pub(super) fn set<'i>(
     let Some((last, way)) = steps.split_last() else {
         return Err(path.to_owned());
     };
+    if let Some(within) = steps.get(..LONGEST_PATH)
+        && steps.len() > LONGEST_PATH
+    {
+        let within: String = within.iter().map(ToString::to_string).collect();
+        return Err(within.trim_start_matches('.').to_owned());
+    }
     for step in way {
         if let (Node::Table(table), Step::Key(key)) = (&mut node, step)
             && CHOICES.contains(&walked.as_str())

@@ -1,5 +1,6 @@
 //! A run as a picture or a replay needs it: every step with truth, belief and decision, in one file.
 
+mod action_runs;
 mod compact;
 mod file;
 mod record;
@@ -10,6 +11,7 @@ use adslam_models::{Control, Pose, move_pose};
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
+pub use action_runs::ActionRuns;
 pub use record::HistoryRecorder;
 
 use crate::scenario::PlannerName;
@@ -143,8 +145,7 @@ pub struct HistoryDecision {
     /// How long it took, ms.
     pub milliseconds: f64,
     /// The actions that were scored, in ascending order.
-    #[serde(with = "compact::ranges")]
-    pub scored: Vec<usize>,
+    pub scored: ActionRuns,
     /// trace(Pₙ₊₁) after each of them, rad² + cm².
     pub traces: Vec<f64>,
 }
@@ -247,7 +248,7 @@ impl RunHistory {
         let from = Pose::from_vector(&Vector6::from(before.estimated_pose));
         let scored = decision.scored.iter().zip(&decision.traces);
         scored
-            .filter_map(|(&action, &trace)| {
+            .filter_map(|(action, &trace)| {
                 let [a, b, c, x, y, z] = *self.actions.get(action)?;
                 let control = Control {
                     rotation: Vector3::new(a, b, c),

@@ -11,12 +11,12 @@ mod simulate;
 
 pub use batch::{Batch, BatchResult, Interrupt, Progress};
 pub use history::{
-    Candidate, DrawnSurface, HISTORY_FILE, HISTORY_FORMAT, HISTORY_VERSION, HistoryDecision,
-    HistoryMetrics, HistoryRecorder, HistoryStep, ObjectStep, RunHistory,
+    ActionRuns, Candidate, DrawnSurface, HISTORY_FILE, HISTORY_FORMAT, HISTORY_VERSION,
+    HistoryDecision, HistoryMetrics, HistoryRecorder, HistoryStep, ObjectStep, RunHistory,
 };
 pub use planners::build_planner;
 pub use record::RunRecorder;
-pub(crate) use rest_object::parted;
+pub(crate) use rest_object::{features_of, parted};
 pub use setup::Setup;
 pub(crate) use setup::gate;
 pub use simulate::{NoObserver, Observer, RunOutcome, StepView, simulate};

@@ -61,15 +61,25 @@ impl RestObject {
         count: values::FeatureCount,
         seed: values::Seed,
     ) -> Result<Self, SurfaceError> {
-        let picked = pick_features(&drawn, count.get(), seed.as_u64())?;
-        let features: Vec<Point3<f64>> = picked.iter().map(|&i| drawn.vertices[i]).collect();
-        let topology = Topology::convex_hull(&features)?;
+        let (features, topology) = features_of(&drawn, count.get(), seed.as_u64())?;
         Ok(Self {
             features,
             topology,
             drawn,
         })
     }
+}
+
+/// So many vertices of the mesh, and the hull over them.
+pub(crate) fn features_of(
+    mesh: &Mesh,
+    count: usize,
+    seed: u64,
+) -> Result<(Vec<Point3<f64>>, Topology), SurfaceError> {
+    let picked = pick_features(mesh, count, seed)?;
+    let features: Vec<Point3<f64>> = picked.iter().map(|&i| mesh.vertices[i]).collect();
+    let topology = Topology::convex_hull(&features)?;
+    Ok((features, topology))
 }
 
 fn refuse_missing(scenario: &Scenario, mesh: &scenario::Mesh) -> Result<(), InputError> {

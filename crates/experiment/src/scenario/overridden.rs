@@ -3,6 +3,9 @@
 use super::Scenario;
 use crate::diagnostics::{Document, InputError, Layer};
 
+/// More overrides of one scenario are a mistake: it has fewer keys.
+const MOST_OVERRIDES: usize = 1_000;
+
 impl Scenario {
     /// This scenario with overrides from `file` laid over it, one layer after the other.
     ///
@@ -21,6 +24,15 @@ impl Scenario {
         let overrides = merged.overrides();
         if overrides.is_empty() {
             return Ok(self.clone());
+        }
+        let count = overrides.len();
+        if count > MOST_OVERRIDES {
+            let table = tables.last().map_or("", String::as_str);
+            return Err(file
+                .error_at(table, format!("there are {count} overrides"))
+                .with_help(format!(
+                    "write at most {MOST_OVERRIDES}, and the rest into a scenario of its own"
+                )));
         }
         let error = match Self::from_document(merged.clone()) {
             Err(error) if merged.is_in_base(&error) => error,

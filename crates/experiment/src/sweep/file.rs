@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use crate::config::{Runs, each_once, first_seed, reachable};
+use crate::config::{MOST_RUNS_IN_ALL, Runs, each_once, first_seed, reachable};
 use crate::diagnostics::{Document, FileKind, InputError, Layer, json_at};
 use crate::scenario::values::{List, Name, Seed};
 use crate::scenario::{PlannerName, Scenario};
@@ -16,8 +16,6 @@ use crate::scenario::{PlannerName, Scenario};
 pub const MOST_POINTS: usize = 10_000;
 /// More listed points are better made a grid: each is looked up in the text of the file.
 const MOST_LISTED: usize = 1_000;
-/// More runs, over all points and planners, would take months.
-pub const MOST_RUNS_IN_ALL: usize = 1_000_000;
 
 /// A sweep with its scenario read, and overridden and checked at each point.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,6 +118,14 @@ impl Sweep {
         let document = Document::read(path)?;
         FileKind::Sweep.expect(&document)?;
         Self::from_document(&document)
+    }
+
+    /// Reads and checks a sweep from `text`, as if it were the content of the file at `path`.
+    ///
+    /// # Errors
+    /// As [`Sweep::load`].
+    pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
+        Self::from_document(&Document::parse(text, path)?)
     }
 
     pub(crate) fn from_document(document: &Document) -> Result<Self, InputError> {

@@ -14,6 +14,6 @@ mod results;
 mod tests;
 
 pub(crate) use file::SweepFile;
-pub use file::{MOST_POINTS, MOST_RUNS_IN_ALL, Sweep, SweepPoint};
+pub use file::{MOST_POINTS, Sweep, SweepPoint};
 pub use plan::{SweepPlan, SweepRecord};
 pub use results::SweepResults;

@@ -19,6 +19,9 @@ pub const MAX_MESH_BYTES: u64 = 256 << 20;
 /// Most triangles of a mesh file that are read.
 pub const MAX_MESH_FACES: u64 = 2_000_000;
 
+/// Most vertices of a mesh file that are read: three for each triangle.
+const MOST_VERTICES: u64 = 3 * MAX_MESH_FACES;
+
 /// A format of mesh files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MeshFormat {
@@ -164,6 +167,11 @@ fn check_size(bytes: u64) -> Result<(), SurfaceError> {
         });
     }
     Ok(())
+}
+
+/// Fails on a polygon of more corners than make as many triangles as are read.
+fn check_corners(corners: usize) -> Result<(), SurfaceError> {
+    check_faces((corners as u64).saturating_sub(2))
 }
 
 /// Fails on a number of triangles beyond the limit.

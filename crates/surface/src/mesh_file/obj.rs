@@ -3,7 +3,7 @@
 //! Read here rather than by a crate, so that an error names its line, coordinates keep 64 bits,
 //! and neither materials nor wrong numbers of normals are in the way of the shape.
 
-use super::{Joiner, MeshFormat};
+use super::{Joiner, MOST_VERTICES, MeshFormat, check_corners};
 use crate::SurfaceError;
 
 /// Words that begin a line of an OBJ file.
@@ -37,11 +37,18 @@ pub(super) fn parse(bytes: &[u8], joiner: &mut Joiner) -> Result<(), SurfaceErro
         let text = String::from_utf8_lossy(&line);
         let mut words = text.split_ascii_whitespace();
         match words.next() {
-            Some("v") => positions.push(position(words).map_err(at_line)?),
+            Some("v") => {
+                if positions.len() as u64 == MOST_VERTICES {
+                    let reason = format!("there are more than {MOST_VERTICES} vertices");
+                    return Err(at_line(reason));
+                }
+                positions.push(position(words).map_err(at_line)?);
+            }
             Some("f") => {
                 corners.clear();
                 for word in words {
                     corners.push(corner(word, &positions).map_err(at_line)?);
+                    check_corners(corners.len())?;
                 }
                 if corners.len() < 3 {
                     let count = corners.len();

@@ -5,7 +5,7 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
 };
 
-use super::{Joiner, MAX_MESH_FACES, MeshFormat, check_faces};
+use super::{Joiner, MOST_VERTICES, MeshFormat, check_corners, check_faces};
 use crate::SurfaceError;
 
 /// Whether this is PLY by its first line.
@@ -27,6 +27,9 @@ pub(super) fn parse(bytes: &[u8], joiner: &mut Joiner) -> Result<bool, SurfaceEr
     let header = parser.read_header(&mut reader).map_err(|e| in_text(&e))?;
     let is_binary = header.encoding != Encoding::Ascii;
     check_header(&header, bytes.len())?;
+    if !is_binary {
+        check_lines(bytes)?;
+    }
     let (mut positions, mut faces) = (Vec::new(), Vec::new());
     for (name, definition) in &header.elements {
         let elements = parser
@@ -40,6 +43,7 @@ pub(super) fn parse(bytes: &[u8], joiner: &mut Joiner) -> Result<bool, SurfaceEr
     }
     let mut corners = Vec::new();
     for (number, face) in faces.iter().enumerate() {
+        check_corners(face.corners.len())?;
         corners.clear();
         for &index in &face.corners {
             let vertex = usize::try_from(index).ok().and_then(|i| positions.get(i));
@@ -57,8 +61,20 @@ pub(super) fn parse(bytes: &[u8], joiner: &mut Joiner) -> Result<bool, SurfaceEr
     Ok(is_binary)
 }
 
-/// More elements than this, such as vertices, are not read: three for each triangle.
-const MOST_ELEMENTS: u64 = 3 * MAX_MESH_FACES;
+/// The longest line of a text file, in bytes: the reader makes a string of each of its words.
+const LONGEST_LINE: usize = 1 << 20;
+
+/// Refuses lines that would take much more memory than they have bytes.
+fn check_lines(bytes: &[u8]) -> Result<(), SurfaceError> {
+    let mut lines = bytes.split(|b| *b == b'\n').zip(1..);
+    match lines.find(|(line, _)| line.len() > LONGEST_LINE) {
+        None => Ok(()),
+        Some((_, number)) => Err(malformed(
+            format!("line {number}"),
+            format!("it has more than {LONGEST_LINE} bytes"),
+        )),
+    }
+}
 
 /// Refuses what cannot be a mesh, and counts that the file is too short for: an element takes a
 /// byte at least, so that nothing is read, or stored, for longer than there are bytes.
@@ -74,9 +90,9 @@ fn check_header(header: &Header, bytes: usize) -> Result<(), SurfaceError> {
         if *count > 0 && properties.is_empty() {
             return Err(in_header(format!("element {name} has no properties")));
         }
-        if *count as u64 > MOST_ELEMENTS {
+        if *count as u64 > MOST_VERTICES {
             return Err(in_header(format!(
-                "{count} of element {name} are announced, and {MOST_ELEMENTS} are the most"
+                "{count} of element {name} are announced, and {MOST_VERTICES} are the most"
             )));
         }
         if *count > bytes {

@@ -1,14 +1,16 @@
 //! history.json: written whole, read with care.
 
-use std::fs;
 use std::path::Path;
 
 use serde::Deserialize;
 
 use super::{DrawnSurface, HISTORY_FILE, HISTORY_FORMAT, HISTORY_VERSION, HistoryStep, RunHistory};
 use crate::ExperimentError;
-use crate::diagnostics::InputError;
+use crate::diagnostics::{InputError, read_text};
 use crate::output::AtomicFile;
+
+/// The largest file that is read, in bytes: a run of the heart takes a few million.
+const LARGEST_FILE: u64 = 1 << 30;
 
 /// What every version of the file has.
 #[derive(Deserialize)]
@@ -36,10 +38,9 @@ impl RunHistory {
     /// each other.
     pub fn load(folder: &Path) -> Result<Self, InputError> {
         let path = folder.join(HISTORY_FILE);
-        let text = fs::read_to_string(&path).map_err(|cause| {
-            InputError::unreadable(&path, cause)
-                .with_help("give the folder of a run: `adslam run` writes history.json into it")
-        })?;
+        let remedy = "give the folder of a run: `adslam run` writes history.json into it";
+        let text =
+            read_text(&path, LARGEST_FILE, remedy).map_err(|error| error.with_help(remedy))?;
         Self::parse(&path, &text)
     }
 
@@ -139,7 +140,8 @@ impl RunHistory {
         }
         if let Some(decision) = &step.decision {
             same("traces", decision.traces.len(), decision.scored.len())?;
-            within("a scored action", &decision.scored, self.actions.len())?;
+            let greatest = decision.scored.greatest();
+            within("a scored action", &greatest, self.actions.len())?;
             within("the action", &decision.action, self.actions.len())?;
             within("the goal", &decision.goal, self.viewpoints_cm.len())?;
         }

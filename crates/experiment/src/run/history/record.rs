@@ -48,7 +48,7 @@ impl<'a> HistoryRecorder<'a> {
                 drawn: drawn_surface(setup),
                 actions: controls.iter().map(control_numbers).collect(),
                 viewpoints_cm: Vec::new(),
-                steps: Vec::with_capacity(setup.steps),
+                steps: Vec::new(),
             },
             base: Vector3::zeros(),
             seen: vec![false; setup.world.rest.len()],

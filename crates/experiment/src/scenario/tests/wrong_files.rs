@@ -71,6 +71,23 @@ fn bad_syntax_is_shown_where_it_is() {
     assert!(error.span().is_some());
 }
 
+/// Nobody reads a thousand lines to find what is wrong in one.
+#[test]
+fn a_long_text_is_not_shown_whole() {
+    let lists = "[1, 2, 3],\n".repeat(1000);
+    let many = polygon_with("yaw_deg = [", &format!("yaw_deg = [\n{lists}")).unwrap_err();
+    let report = miette_report(&many);
+    assert!(report.lines().count() < 20, "{report}");
+    assert!(report.contains("sequence cannot stand here"), "{report}");
+
+    let long = format!("description = \"é\"\nsteps = [{}]\n", "1, ".repeat(100_000));
+    let error = parsed(&long).unwrap_err();
+    let report = miette_report(&error);
+    assert!(report.len() < 2000, "{report}");
+    assert!(report.contains("(line 2, column 9)"), "{report}");
+    assert_eq!(error.line_and_column(), Some((2, 9)));
+}
+
 /// The whole report, as a user sees it.
 #[test]
 fn a_report_shows_file_line_caret_and_remedy() {

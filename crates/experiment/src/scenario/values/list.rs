@@ -5,6 +5,7 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Deref;
 
+use adslam_surface::MIN_COORDINATE_CM;
 use nalgebra::{Point3, Vector3};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
@@ -28,7 +29,13 @@ impl Vec3 {
         for number in numbers {
             Finite::new(number)?;
         }
-        Ok(Self(numbers.into()))
+        Ok(Self::of(numbers))
+    }
+
+    /// What is nearer to 0 than a surface can tell from it is 0.
+    fn of(numbers: [f64; 3]) -> Self {
+        let is_zero = |number: f64| number.abs() < MIN_COORDINATE_CM;
+        Self(numbers.map(|x| if is_zero(x) { 0.0 } else { x }).into())
     }
 
     /// The point that the vector leads to from the origin.
@@ -53,7 +60,7 @@ impl Deref for Vec3 {
 impl<'de> Deserialize<'de> for Vec3 {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let numbers = Triple::<Finite>::deserialize(deserializer)?;
-        Ok(Self(numbers.map(|number| *number).into()))
+        Ok(Self::of(numbers.map(|number| *number)))
     }
 }
 
