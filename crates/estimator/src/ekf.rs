@@ -113,17 +113,13 @@ impl<E: ErrorState> Ekf<E> {
         &self.noise
     }
 
-    /// Moves the estimate by the correction, and the covariance with it.
+    /// Moves the estimate by the correction in the coordinates of `E`, and the covariance with it.
     fn correct(
         &mut self,
         belief: &mut Belief,
         parallelism: Parallelism,
     ) -> Result<(), EstimatorError> {
-        if !self.delta.iter().all(|x| x.is_finite()) {
-            return Err(EstimatorError::NotFinite {
-                what: "correction of the state",
-            });
-        }
+        check_correction(&self.delta)?;
         self.predicted.pose = belief.state.pose;
         self.predicted.features.clone_from(&belief.state.features);
         E::retract(&mut belief.state, &self.delta);
@@ -163,8 +159,10 @@ impl<E: ErrorState> Estimator for Ekf<E> {
         Ok(())
     }
 
-    // Equal to Algorithm 1 with all rows stacked: the feature measurements are linearised at the predicted
-    // state, and the structure measurements, being linear, may follow.
+    // Equal to Algorithm 1 with all rows stacked where errors are the paper's: the feature measurements are
+    // linearised at the predicted state, and the structure measurements may follow, as they are linear in
+    // positions in the world. For that reason their correction is exact where positions are subtracted, in
+    // the paper's coordinates, whatever those of `E` are.
     fn update(
         &mut self,
         belief: &mut Belief,
@@ -172,8 +170,6 @@ impl<E: ErrorState> Estimator for Ekf<E> {
     ) -> Result<UpdateReport, EstimatorError> {
         belief.check_sizes()?;
         let parallelism = self.parallelism.for_dim(belief.covariance.dim());
-        self.delta.clear();
-        self.delta.resize(belief.state.dim(), 0.0);
         let features = self.features.apply(
             belief,
             &mut self.delta,
@@ -182,6 +178,9 @@ impl<E: ErrorState> Estimator for Ekf<E> {
             &mut self.workspace,
             parallelism,
         )?;
+        if features.dof > 0 {
+            self.correct(belief, parallelism)?;
+        }
         let structure = self.structure.apply(
             belief,
             &mut self.delta,
@@ -190,7 +189,10 @@ impl<E: ErrorState> Estimator for Ekf<E> {
             &mut self.workspace,
             parallelism,
         )?;
-        self.correct(belief, parallelism)?;
+        if structure.dof > 0 {
+            check_correction(&self.delta)?;
+            EulerError::retract(&mut belief.state, &self.delta);
+        }
         belief.covariance.complete(parallelism)?;
         Ok(UpdateReport {
             features,
@@ -206,6 +208,15 @@ impl<E: ErrorState> Estimator for Ekf<E> {
     fn error(&self, estimate: &State, truth: &State) -> Vec<f64> {
         E::error(estimate, truth)
     }
+}
+
+fn check_correction(delta: &[f64]) -> Result<(), EstimatorError> {
+    if delta.iter().all(|x| x.is_finite()) {
+        return Ok(());
+    }
+    Err(EstimatorError::NotFinite {
+        what: "correction of the state",
+    })
 }
 
 /// The inputs of a propagation must be finite and as many as the state has features.

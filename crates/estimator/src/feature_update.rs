@@ -80,13 +80,13 @@ pub(crate) struct FeatureUpdate {
 }
 
 impl FeatureUpdate {
-    /// Conditions the covariance on the measurements, with H at the present state, and adds the correction
-    /// to `delta`. Of the covariance only the lower triangle is brought up to date. `gate` is the largest
+    /// Conditions the covariance on the measurements, with H at the present state, and leaves the
+    /// correction in `delta`. Of the covariance only the lower triangle is brought up to date. `gate` is the largest
     /// squared distance of a measurement from what is expected that is believed.
     pub(crate) fn apply(
         &mut self,
         belief: &mut Belief,
-        delta: &mut [f64],
+        delta: &mut Vec<f64>,
         measurements: &[FeatureMeasurement],
         (sigma, gate): (f64, Option<f64>),
         workspace: &mut Workspace,
@@ -115,7 +115,7 @@ impl FeatureUpdate {
             workspace,
             parallelism,
         )?;
-        workspace.add_correction(delta);
+        workspace.copy_correction(delta);
         Ok(Nis {
             value: workspace.nis(),
             dof: 3 * self.sightings.len(),

@@ -63,9 +63,10 @@ impl Workspace {
         self.nis
     }
 
-    /// Adds the correction to that of measurements before.
-    pub(crate) fn add_correction(&self, delta: &mut [f64]) {
-        add_scaled(delta, 1.0, self.carried.col_as_slice(0));
+    /// The correction of the whole state, in `delta`.
+    pub(crate) fn copy_correction(&self, delta: &mut Vec<f64>) {
+        delta.clear();
+        delta.extend_from_slice(self.carried.col_as_slice(0));
     }
 
     /// The correction of one entry of the state.

@@ -8,7 +8,7 @@
 mod all_pairs;
 mod graph;
 
-use adslam_models::{FeatureId, POSE_DIM, structure_measurement};
+use adslam_models::{FeatureId, structure_measurement};
 use nalgebra::{Point3, Vector3};
 
 use crate::ekf::check_feature;
@@ -43,40 +43,37 @@ pub enum StructureMeasurements<'a> {
 /// The update with structure measurements, in memory that is kept.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StructureUpdate {
-    /// The features with the correction so far.
-    corrected: Vec<Point3<f64>>,
     /// Hᵀ(z − Hχ̂), cm.
     residual: Vec<Vector3<f64>>,
     graph: PairGraph,
 }
 
 impl StructureUpdate {
-    /// Conditions the covariance on the measurements and adds the correction to `delta`, what the state is to
-    /// be corrected by so far. Of the covariance only the lower triangle is brought up to date.
+    /// Conditions the covariance on the measurements and leaves the correction in `delta`. Of the covariance
+    /// only the lower triangle is brought up to date.
     pub(crate) fn apply(
         &mut self,
         belief: &mut Belief,
-        delta: &mut [f64],
+        delta: &mut Vec<f64>,
         measurements: &StructureMeasurements<'_>,
         sigma: f64,
         workspace: &mut Workspace,
         parallelism: Parallelism,
     ) -> Result<Nis, EstimatorError> {
         let count = belief.state.features.len();
-        self.set_corrected(belief, delta);
-        let (residual, corrected) = (&mut self.residual, &self.corrected);
+        let (residual, features) = (&mut self.residual, &belief.state.features);
         let all_pairs = match measurements {
             StructureMeasurements::None | StructureMeasurements::Pairs([]) => {
                 return Ok(Nis::default());
             }
             StructureMeasurements::AllPairsSummed(sums) => {
                 check_sums(sums, count)?;
-                set_summed_residual(residual, corrected, sums);
+                set_summed_residual(residual, features, sums);
                 true
             }
             StructureMeasurements::Pairs(pairs) => {
                 check_pairs(pairs, count)?;
-                set_pair_residual(residual, corrected, pairs);
+                set_pair_residual(residual, features, pairs);
                 self.graph.read(pairs, count)?
             }
         };
@@ -87,7 +84,7 @@ impl StructureUpdate {
             self.graph
                 .condition(covariance, residual, sigma, workspace, parallelism)?;
         }
-        workspace.add_correction(delta);
+        workspace.copy_correction(delta);
         Ok(Nis {
             value: workspace.nis(),
             dof: 3 * if all_pairs {
@@ -96,16 +93,6 @@ impl StructureUpdate {
                 self.graph.rank()
             },
         })
-    }
-
-    /// p̂ + δ of each feature: the measurements are linear in the paper's coordinates, so they may be
-    /// compared with what the measurements before them led to.
-    fn set_corrected(&mut self, belief: &Belief, delta: &[f64]) {
-        let (parts, _) = delta[POSE_DIM..].as_chunks::<3>();
-        let both = belief.state.features.iter().zip(parts);
-        self.corrected.clear();
-        self.corrected
-            .extend(both.map(|(p, part)| p + Vector3::from(*part)));
     }
 }
 

@@ -115,9 +115,28 @@ impl Textbook {
         pairs: &[PairMeasurement],
         noise: &FilterNoise,
     ) -> Updated {
+        let first = self.update_stacked(state, p, features, &[], noise);
+        // Linear in positions: no coordinates are better than the paper's.
+        let paper = self.covariance_to_paper(&first.state, &first.p);
+        let second = EULER.update_stacked(&first.state, &paper, &[], pairs, noise);
+        Updated {
+            p: self.covariance_from_paper(&second.state, &second.p),
+            state: second.state,
+            nis: first.nis + second.nis,
+        }
+    }
+
+    fn update_stacked(
+        self,
+        state: &State,
+        p: &DMatrix<f64>,
+        features: &[FeatureMeasurement],
+        pairs: &[PairMeasurement],
+        noise: &FilterNoise,
+    ) -> Updated {
         let (mut h, o, y) = crate::common::stacked(state, features, pairs, noise);
         if self != EULER {
-            self.set_rotation_columns(&mut h, state, features, pairs);
+            self.set_rotation_columns(&mut h, state, features);
         }
         let s = &h * p * h.transpose() + DMatrix::from_diagonal(&o);
         let inverse = s.try_inverse().expect("S is invertible");
@@ -137,7 +156,6 @@ impl Textbook {
         h: &mut DMatrix<f64>,
         state: &State,
         features: &[FeatureMeasurement],
-        pairs: &[PairMeasurement],
     ) {
         let body_from_world = state.pose.orientation.rotation().matrix().transpose();
         for (m, measurement) in features.iter().enumerate() {
@@ -147,13 +165,6 @@ impl Textbook {
                 _ => body_from_world * offset.cross_matrix(),
             };
             put(h, 3 * m, 0, &block);
-        }
-        for (m, pair) in pairs.iter().enumerate() {
-            let difference = state.features[pair.to.0] - state.features[pair.from.0];
-            if self == RIGHT_INVARIANT {
-                let row = 3 * (features.len() + m);
-                put(h, row, 0, &-difference.cross_matrix());
-            }
         }
     }
 
