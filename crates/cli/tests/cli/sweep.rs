@@ -10,16 +10,17 @@ use serde_json::{Value, json};
 use super::failures::breaking;
 use super::support::{FAILURE, Place, polygon, repository};
 
-/// The tables, which must be the same however a sweep came to its end.
-pub const TABLES: [&str; 7] = [
-    "runs.csv",
-    "runs.jsonl",
-    "table.csv",
-    "table.jsonl",
-    "comparisons.csv",
-    "comparisons.jsonl",
-    "table.md",
-];
+/// The files of tables, which must be the same however a sweep came to its end.
+pub fn written() -> Vec<String> {
+    let mut names = vec!["table.md".to_owned()];
+    for table in ["runs", "table", "comparisons"] {
+        names.extend(["csv", "jsonl"].map(|format| format!("{table}.{format}")));
+        if cfg!(feature = "parquet") {
+            names.push(format!("{table}.parquet"));
+        }
+    }
+    names
+}
 
 /// A sweep of two points and two planners over the polygon in `polygon.toml`.
 pub fn sweep(runs: usize) -> String {
@@ -73,7 +74,7 @@ pub fn wait_for_records(place: &Place, out: &str, count: usize) {
 /// The bytes of all tables.
 pub fn tables(place: &Place, out: &str) -> Vec<Vec<u8>> {
     let table = |name| fs::read(place.path(out).join(name)).unwrap();
-    TABLES.into_iter().map(table).collect()
+    written().into_iter().map(table).collect()
 }
 
 /// The command's one object of JSON.
@@ -136,7 +137,7 @@ fn a_finished_sweep_only_writes_its_tables_anew() {
         (&answer["runs"], &answer["runs_there_already"]),
         (&json!(12), &json!(0))
     );
-    assert_eq!(answer["files"].as_array().unwrap().len(), TABLES.len());
+    assert_eq!(answer["files"].as_array().unwrap().len(), written().len());
     let before = tables(&place, "out");
     fs::remove_file(place.path("out/table.md")).unwrap();
     let said = place.succeeds("sweep sweep.toml --out out --runs 3");
@@ -277,7 +278,7 @@ fn a_full_disk_ends_the_work_and_loses_nothing() {
     for name in records(&place, "out").into_iter().skip(20) {
         fs::remove_file(place.path("out/records").join(name)).unwrap();
     }
-    for name in TABLES {
+    for name in written() {
         fs::remove_file(place.path("out").join(name)).unwrap();
     }
     for (blocks, kept) in [(0, 20), (8, 40)] {
@@ -296,7 +297,7 @@ fn a_full_disk_ends_the_work_and_loses_nothing() {
         }
         assert_eq!(records(&place, "out").len(), kept, "{said}");
         assert!(
-            TABLES
+            written()
                 .iter()
                 .all(|name| !place.path("out").join(name).exists())
         );

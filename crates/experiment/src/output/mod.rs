@@ -2,6 +2,8 @@
 
 mod atomic;
 mod features;
+#[cfg(feature = "parquet")]
+mod parquet_file;
 mod steps;
 mod table_file;
 mod tum;

@@ -1,4 +1,4 @@
-//! Tables for machines: each as CSV and as JSON lines, row by row.
+//! Tables for machines: each as CSV and as JSON lines, and as Parquet with the feature of that name, row by row.
 
 use std::io;
 use std::path::Path;
@@ -6,6 +6,8 @@ use std::path::Path;
 use serde_json::{Map, Value};
 
 use super::AtomicFile;
+#[cfg(feature = "parquet")]
+use super::parquet_file::ParquetFile;
 use crate::ExperimentError;
 
 /// A column of a table.
@@ -38,13 +40,15 @@ impl Column {
     }
 }
 
-/// A table that is being written as NAME.csv and NAME.jsonl. A cell is a JSON value; an empty one, null in JSON,
-/// is nothing in CSV. Numbers have as many digits as tell them from all others.
-#[derive(Debug)]
+/// A table that is being written as NAME.csv and NAME.jsonl, and as NAME.parquet with the feature `parquet`. A cell is a
+/// JSON value; an empty one, null in JSON, is nothing in CSV. Numbers have as many digits as tell them from all
+/// others.
 pub struct TableFile {
     columns: Vec<Column>,
     csv: csv::Writer<AtomicFile>,
     lines: AtomicFile,
+    #[cfg(feature = "parquet")]
+    parquet: ParquetFile,
 }
 
 impl TableFile {
@@ -62,6 +66,8 @@ impl TableFile {
         let mut table = Self {
             csv: csv::Writer::from_writer(csv),
             lines,
+            #[cfg(feature = "parquet")]
+            parquet: ParquetFile::create(&folder.join(format!("{name}.parquet")), &columns)?,
             columns,
         };
         let heads = table.columns.iter().map(|column| column.name.as_str());
@@ -77,6 +83,8 @@ impl TableFile {
     pub fn add(&mut self, cells: Vec<Value>) -> Result<(), ExperimentError> {
         let written = self.csv.write_record(cells.iter().map(text));
         self.checked(written)?;
+        #[cfg(feature = "parquet")]
+        self.parquet.add(&cells)?;
         let names = self.columns.iter().map(|column| column.name.clone());
         self.lines
             .add_json_line(&names.zip(cells).collect::<Map<_, _>>())
@@ -92,7 +100,12 @@ impl TableFile {
             .csv
             .into_inner()
             .map_err(|error| ExperimentError::output(&path)(error.into_error()))?;
-        Ok(vec![csv, self.lines])
+        Ok(vec![
+            csv,
+            self.lines,
+            #[cfg(feature = "parquet")]
+            self.parquet.finish()?,
+        ])
     }
 
     fn checked(&self, written: csv::Result<()>) -> Result<(), ExperimentError> {
@@ -102,7 +115,7 @@ impl TableFile {
 }
 
 /// A cell as text.
-fn text(cell: &Value) -> String {
+pub(super) fn text(cell: &Value) -> String {
     match cell {
         Value::Null => String::new(),
         Value::String(text) => text.clone(),
@@ -133,11 +146,7 @@ mod tests {
         table
             .add(vec![json!(2), Value::Null, json!([1.0, "x"])])
             .unwrap();
-        assert_eq!(
-            fs::read_dir(folder.path()).unwrap().count(),
-            2,
-            "unfinished"
-        );
+        assert!(!folder.path().join("t.csv").exists(), "unfinished");
         AtomicFile::commit_all(table.finish().unwrap()).unwrap();
         let read = |name| fs::read_to_string(folder.path().join(name)).unwrap();
         assert_eq!(

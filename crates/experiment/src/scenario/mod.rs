@@ -145,9 +145,13 @@ impl Scenario {
     }
 
     /// Every key that is written, overrides in place of what they override, as JSON: what tells two scenarios
-    /// apart, whatever their comments and their place.
+    /// apart, whatever their descriptions, their comments and their place.
     pub fn keys(&self) -> serde_json::Value {
-        self.document.to_json()
+        let mut keys = self.document.to_json();
+        if let Some(keys) = keys.as_object_mut() {
+            keys.remove("description");
+        }
+        keys
     }
 
     /// The scenario as text, overrides apart.

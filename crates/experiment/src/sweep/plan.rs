@@ -12,7 +12,7 @@ use crate::config::checked_runs;
 use crate::diagnostics::InputError;
 use crate::metrics::RunSummary;
 use crate::run::{Interrupt, NoObserver, Setup, simulate};
-use crate::scenario::Named;
+use crate::scenario::{Named, PlannerName};
 use crate::study::{Study, StudyPlan, StudyUnit};
 
 /// A sweep made ready to run: the object of every point built.
@@ -83,7 +83,25 @@ impl SweepPlan {
     /// What the user should know before running, each once.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        distinct(self.setups.iter().flat_map(|setup| &setup.warnings))
+        let of_setups = self.setups.iter().flat_map(|setup| &setup.warnings);
+        let of_deadlines = self.deadlines();
+        distinct(of_setups.chain(&of_deadlines))
+    }
+
+    /// The planners that have only so much time for a decision.
+    fn deadlines(&self) -> Vec<String> {
+        let planners = &self.sweep.planners;
+        let hurried = self.setups.iter().flat_map(|setup| {
+            let has_deadline = |planner: &&PlannerName| setup.scenario.deadline_ms(**planner).is_some();
+            planners.iter().filter(has_deadline).map(|planner| {
+                format!(
+                    "{}: the {planner} planner has a deadline, so that its runs depend on the machine and \
+                     cannot be repeated",
+                    setup.name
+                )
+            })
+        });
+        hurried.collect()
     }
 
     /// Begins the sweep in `folder`, or goes on with it.

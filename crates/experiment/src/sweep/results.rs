@@ -63,8 +63,8 @@ impl<'a> SweepResults<'a> {
         distinct(done.flat_map(|record| &record.warnings))
     }
 
-    /// Writes all tables into `folder` and returns their paths: runs, table and comparisons as CSV and as JSON
-    /// lines, and table.md for people.
+    /// Writes all tables into `folder` and returns their paths: runs, table and comparisons in the formats of
+    /// [`TableFile`], and table.md for people.
     ///
     /// # Errors
     /// [`ExperimentError::Output`]; the tables that were there are then unchanged.

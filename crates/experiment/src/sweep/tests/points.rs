@@ -131,3 +131,12 @@ fn an_object_that_does_not_change_is_built_once() {
         );
     }
 }
+
+#[test]
+fn a_deadline_is_warned_of_once() {
+    let folder = Folder::with("[grid]\n\"planners.local.deadline_ms\" = [1.0, 2.0]");
+    let plan = SweepPlan::load(&folder.path("sweep.toml"), None).unwrap();
+    let warnings = plan.warnings();
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    assert!(warnings[0].starts_with("polygon: the local planner has a deadline"));
+}
