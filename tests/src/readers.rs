@@ -12,7 +12,7 @@ use adslam_experiment::config::{Config, Published};
 use adslam_experiment::diagnostics::InputError;
 use adslam_experiment::log::{EstimateLine, FilterChoice, Replay};
 use adslam_experiment::run::{RunHistory, Setup};
-use adslam_experiment::scenario::values::Probability;
+use adslam_experiment::scenario::values::GateProbability;
 use adslam_experiment::scenario::{EstimatorName, LengthUnit, Named, Object, Scenario};
 use adslam_experiment::sweep::Sweep;
 use adslam_experiment::{ExperimentError, MeshReport};
@@ -148,7 +148,7 @@ fn log(bytes: &[u8]) {
             bytes,
             FilterChoice {
                 estimator,
-                gate_probability: Probability::new(0.99).ok(),
+                gate_probability: GateProbability::new(0.99).ok(),
             },
         );
     }

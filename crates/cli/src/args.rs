@@ -6,7 +6,7 @@ use adslam_experiment::ExperimentError;
 use adslam_experiment::config::Selection;
 use adslam_experiment::diagnostics::FileKind;
 use adslam_experiment::run::Interrupt;
-use adslam_experiment::scenario::values::{Probability, ValueError};
+use adslam_experiment::scenario::values::{GateProbability, ValueError};
 use adslam_experiment::scenario::{EstimatorName, LengthUnit, PlannerName};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -301,7 +301,7 @@ pub struct FilterArgs {
     pub estimator: EstimatorName,
     /// Keep out feature measurements less likely than this: the part of good ones that pass, such as 0.999
     #[arg(long, value_name = "PROBABILITY", value_parser = probability)]
-    pub gate: Option<Probability>,
+    pub gate: Option<GateProbability>,
     /// At a line that cannot be used, keep the estimates up to the line before
     #[arg(long)]
     pub keep_complete: bool,
@@ -411,9 +411,9 @@ pub struct MeshArgs {
     pub json: bool,
 }
 
-fn probability(given: &str) -> Result<Probability, ValueError> {
+fn probability(given: &str) -> Result<GateProbability, ValueError> {
     // What is no number is answered like one that is out of range.
-    Probability::new(given.parse().unwrap_or(f64::NAN))
+    GateProbability::new(given.parse().unwrap_or(f64::NAN))
 }
 
 impl Command {

@@ -3,15 +3,16 @@
 use std::f64::consts::TAU;
 use std::fmt::Debug;
 
-use crate::{MotionError, elapsed, elapsed_f64};
+use crate::MotionError;
 
-/// A signed length that depends on the step alone.
+/// A signed length that depends on time alone.
 pub trait Amount: Debug + Send + Sync {
-    /// The amount at step `n` (from 1), in cm.
-    fn at(&self, n: usize) -> f64;
+    /// The amount at `time` (in steps, 1 at the start), in cm.
+    fn at(&self, time: f64) -> f64;
 }
 
-/// A list of amounts, gone through again and again: step n has number (n − 1) mod period.
+/// A list of amounts, gone through again and again: step n has number (n − 1) mod period. Between
+/// two steps the amount changes linearly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Schedule {
     amounts_cm: Vec<f64>,
@@ -44,12 +45,21 @@ impl Schedule {
 }
 
 impl Amount for Schedule {
-    fn at(&self, n: usize) -> f64 {
-        self.amounts_cm[elapsed(n) % self.period()]
+    fn at(&self, time: f64) -> f64 {
+        let elapsed = (time - 1.0).rem_euclid(self.period() as f64);
+        let fraction = elapsed.fract();
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a place in the list, or one past it where rounding led there"
+        )]
+        let before = elapsed as usize;
+        let number = |k: usize| self.amounts_cm[k % self.period()];
+        number(before) * (1.0 - fraction) + number(before + 1) * fraction
     }
 }
 
-/// amplitude · sin(2π (n − 1) / period + phase).
+/// amplitude · sin(2π (time − 1) / period + phase).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sinusoid {
     amplitude_cm: f64,
@@ -71,12 +81,12 @@ impl Sinusoid {
 }
 
 impl Amount for Sinusoid {
-    fn at(&self, n: usize) -> f64 {
-        self.amplitude_cm * self.wave.at(n)
+    fn at(&self, time: f64) -> f64 {
+        self.amplitude_cm * self.wave.at(time)
     }
 }
 
-/// A sine of unit amplitude over the steps.
+/// A sine of unit amplitude over time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Wave {
     period_steps: f64,
@@ -95,8 +105,8 @@ impl Wave {
         }
     }
 
-    pub(crate) fn at(&self, n: usize) -> f64 {
-        (TAU * elapsed_f64(n) / self.period_steps + self.phase_rad).sin()
+    pub(crate) fn at(&self, time: f64) -> f64 {
+        (TAU * (time - 1.0) / self.period_steps + self.phase_rad).sin()
     }
 }
 
@@ -108,7 +118,7 @@ mod tests {
     #[test]
     fn schedule_starts_at_step_one_and_repeats() {
         let paper = Schedule::new(vec![0.0, 0.2, 0.4, 0.6, 0.4, 0.2]).unwrap();
-        let seen: Vec<f64> = (1..=8).map(|n| paper.at(n)).collect();
+        let seen: Vec<f64> = (1..=8).map(|n| paper.at(f64::from(n))).collect();
         assert_eq!(seen, [0.0, 0.2, 0.4, 0.6, 0.4, 0.2, 0.0, 0.2]);
         assert_eq!(paper.period(), 6);
     }
@@ -126,9 +136,9 @@ mod tests {
     #[test]
     fn sinusoid_has_its_phase_at_step_one() {
         let wave = Sinusoid::new(2.0, 8.0, std::f64::consts::FRAC_PI_6).unwrap();
-        assert_relative_eq!(wave.at(1), 1.0, epsilon = 1e-12);
-        assert_relative_eq!(wave.at(5), -1.0, epsilon = 1e-12);
-        assert_relative_eq!(wave.at(9), 1.0, epsilon = 1e-12);
+        assert_relative_eq!(wave.at(1.0), 1.0, epsilon = 1e-12);
+        assert_relative_eq!(wave.at(5.0), -1.0, epsilon = 1e-12);
+        assert_relative_eq!(wave.at(9.0), 1.0, epsilon = 1e-12);
     }
 
     #[test]
@@ -142,8 +152,21 @@ mod tests {
     }
 
     #[test]
-    fn step_zero_is_step_one() {
-        let schedule = Schedule::new(vec![1.0, 2.0]).unwrap();
-        assert_eq!(schedule.at(0), schedule.at(1));
+    fn a_schedule_is_linear_between_steps_and_goes_back_without_end() {
+        let schedule = Schedule::new(vec![0.0, 0.4, 0.2]).unwrap();
+        for (time, expected) in [
+            (1.25, 0.1),
+            (2.5, 0.3),
+            (3.5, 0.1),
+            (0.5, 0.1),
+            (0.0, 0.2),
+            (-0.5, 0.3),
+            (-2.0, 0.0),
+        ] {
+            assert_relative_eq!(schedule.at(time), expected, epsilon = 1e-12);
+        }
+        // So little before the start that the remainder rounds to a whole period.
+        let before_the_start = 1.0 - 1e-17 - f64::EPSILON / 4.0;
+        assert_relative_eq!(schedule.at(before_the_start), 0.0, epsilon = 1e-12);
     }
 }

@@ -1,15 +1,16 @@
 //! Local deformations: D, whose change from step to step is d of eq. (2).
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
 
 use crate::Amount;
 
-/// How the points of the object are displaced from where they rest: D(n) = Σ aₖ(n) mₖ(rest).
+/// How the points of the object are displaced from where they rest: D(τ) = Σ aₖ(τ) mₖ(rest).
 ///
 /// The displacement is a sum of *modes*, fields that depend on the rest position alone, each times
-/// an *amount* that depends on the step alone. Whoever draws the object needs its modes once and
+/// an *amount* that depends on time alone. Whoever draws the object needs its modes once and
 /// a few numbers a step.
 pub trait Deformation: Debug + Send + Sync {
     /// How many modes there are.
@@ -19,19 +20,20 @@ pub trait Deformation: Debug + Send + Sync {
     /// where there is no such mode.
     fn mode(&self, k: usize, rest: &Point3<f64>) -> Vector3<f64>;
 
-    /// aₖ(n): how much of mode `k` there is at step `n` (from 1). Amount times mode is in cm.
-    fn amount(&self, k: usize, n: usize) -> f64;
+    /// aₖ(τ): how much of mode `k` there is at `time` (in steps, 1 at the start). Amount times mode
+    /// is in cm.
+    fn amount(&self, k: usize, time: f64) -> f64;
 
-    /// D(n): the displacement at step `n` (from 1) of the material point that rests at `rest`
-    /// (world frame), in cm, before r_d turns it.
-    fn displacement(&self, rest: &Point3<f64>, n: usize) -> Vector3<f64> {
+    /// D(τ): the displacement at `time` (in steps, 1 at the start) of the material point that rests
+    /// at `rest` (world frame), in cm, before r_d turns it.
+    fn displacement(&self, rest: &Point3<f64>, time: f64) -> Vector3<f64> {
         (0..self.mode_count())
-            .map(|k| self.mode(k, rest) * self.amount(k, n))
+            .map(|k| self.mode(k, rest) * self.amount(k, time))
             .sum()
     }
 }
 
-/// The object keeps its shape: D(n) = 0.
+/// The object keeps its shape: D = 0.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Rigid;
 
@@ -44,8 +46,39 @@ impl Deformation for Rigid {
         Vector3::zeros()
     }
 
-    fn amount(&self, _k: usize, _n: usize) -> f64 {
+    fn amount(&self, _k: usize, _time: f64) -> f64 {
         0.0
+    }
+}
+
+/// A deformation whose displacements are all the same number of times as large.
+#[derive(Debug, Clone)]
+pub struct ScaledDeformation {
+    deformation: Arc<dyn Deformation>,
+    factor: f64,
+}
+
+impl ScaledDeformation {
+    /// `factor` times the displacements of `deformation`.
+    pub fn new(deformation: Arc<dyn Deformation>, factor: f64) -> Self {
+        Self {
+            deformation,
+            factor,
+        }
+    }
+}
+
+impl Deformation for ScaledDeformation {
+    fn mode_count(&self) -> usize {
+        self.deformation.mode_count()
+    }
+
+    fn mode(&self, k: usize, rest: &Point3<f64>) -> Vector3<f64> {
+        self.deformation.mode(k, rest)
+    }
+
+    fn amount(&self, k: usize, time: f64) -> f64 {
+        self.factor * self.deformation.amount(k, time)
     }
 }
 
@@ -78,7 +111,7 @@ impl Direction {
     }
 }
 
-/// Expansion and shrinkage around a fixed point (section IV-A of the paper): at step n every point
+/// Expansion and shrinkage around a fixed point (section IV-A of the paper): at any time every point
 /// is displaced by the same amount, each in its own direction away from the anchor.
 ///
 /// The paper's amounts are 0.2 cm × (0, 1, 2, 3, 2, 1), again and again; its public code has
@@ -115,9 +148,9 @@ impl<A: Amount> Deformation for AnchoredDeformation<A> {
         }
     }
 
-    fn amount(&self, k: usize, n: usize) -> f64 {
+    fn amount(&self, k: usize, time: f64) -> f64 {
         match k {
-            0 => self.amount.at(n),
+            0 => self.amount.at(time),
             _ => 0.0,
         }
     }
@@ -137,22 +170,22 @@ mod tests {
 
     #[test]
     fn horizontal_leaves_the_height_alone() {
-        let moved = anchored(Direction::Horizontal).displacement(&Point3::new(4.5, 4.0, 7.0), 2);
+        let moved = anchored(Direction::Horizontal).displacement(&Point3::new(4.5, 4.0, 7.0), 2.0);
         assert_relative_eq!(moved, Vector3::new(0.3, 0.4, 0.0), epsilon = 1e-12);
     }
 
     #[test]
     fn straight_above_and_below_the_anchor_moves_along_z() {
         let horizontal = anchored(Direction::Horizontal);
-        let above = horizontal.displacement(&Point3::new(1.5, 0.0, 4.0), 2);
-        let below = horizontal.displacement(&Point3::new(1.5, 0.0, -4.0), 2);
+        let above = horizontal.displacement(&Point3::new(1.5, 0.0, 4.0), 2.0);
+        let below = horizontal.displacement(&Point3::new(1.5, 0.0, -4.0), 2.0);
         assert_eq!(above, Vector3::new(0.0, 0.0, 0.5));
         assert_eq!(below, Vector3::new(0.0, 0.0, -0.5));
     }
 
     #[test]
     fn radial_moves_straight_away() {
-        let moved = anchored(Direction::Radial).displacement(&Point3::new(1.5, -3.0, 4.0), 2);
+        let moved = anchored(Direction::Radial).displacement(&Point3::new(1.5, -3.0, 4.0), 2.0);
         assert_relative_eq!(moved, Vector3::new(0.0, -0.3, 0.4), epsilon = 1e-12);
     }
 
@@ -160,7 +193,7 @@ mod tests {
     fn the_anchor_stays() {
         for direction in [Direction::Horizontal, Direction::Radial] {
             assert_eq!(
-                anchored(direction).displacement(&ANCHOR, 2),
+                anchored(direction).displacement(&ANCHOR, 2.0),
                 Vector3::zeros()
             );
         }
@@ -171,12 +204,22 @@ mod tests {
         let wave = Sinusoid::new(0.5, 4.0, 0.0).unwrap();
         let breathing = AnchoredDeformation::new(ANCHOR, Direction::Radial, wave);
         let point = Point3::new(2.5, 0.0, 0.0);
-        assert_relative_eq!(breathing.displacement(&point, 2).x, 0.5, epsilon = 1e-12);
-        assert_relative_eq!(breathing.displacement(&point, 4).x, -0.5, epsilon = 1e-12);
+        assert_relative_eq!(breathing.displacement(&point, 2.0).x, 0.5, epsilon = 1e-12);
+        assert_relative_eq!(breathing.displacement(&point, 4.0).x, -0.5, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn scaled_is_as_many_times_as_large() {
+        let plain = anchored(Direction::Radial);
+        let twice = ScaledDeformation::new(Arc::new(plain.clone()), 2.0);
+        let rest = Point3::new(1.5, -3.0, 4.0);
+        let expected = plain.displacement(&rest, 2.0) * 2.0;
+        assert_eq!(twice.displacement(&rest, 2.0), expected);
+        assert_eq!(twice.mode_count(), 1);
     }
 
     #[test]
     fn rigid_is_rigid() {
-        assert_eq!(Rigid.displacement(&ANCHOR, 3), Vector3::zeros());
+        assert_eq!(Rigid.displacement(&ANCHOR, 3.0), Vector3::zeros());
     }
 }

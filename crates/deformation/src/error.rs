@@ -23,4 +23,16 @@ pub enum MotionError {
     /// A rotation needs an axis of finite, non-zero length.
     #[error("the axis ({0}, {1}, {2}) has no direction; give a finite vector other than zero")]
     BadAxis(f64, f64, f64),
+    /// A clock needs a speed between standstill and [`MAX_CLOCK_FACTOR`](crate::MAX_CLOCK_FACTOR),
+    /// and a finite delay.
+    #[error(
+        "a motion cannot run {factor} times as fast and {delay_steps} steps late; give a factor \
+         from 0 to 1000 and a finite delay"
+    )]
+    BadClock {
+        /// How many times as fast.
+        factor: f64,
+        /// How many steps late.
+        delay_steps: f64,
+    },
 }

@@ -7,8 +7,12 @@
 //! [`Rotation`] gives `r_t` or `r_d`; and [`ObjectMotion`] puts the four together. A new kind of
 //! motion is a new implementation of one of the three traits.
 //!
+//! The traits are functions of a continuous time, so that a motion can run faster than its model or
+//! lag behind it: an [`ObjectMotion`] has a [`Clock`], which says the time at each step.
+//!
 //! Lengths are centimetres, angles radians, and everything is expressed in the world frame. Steps
-//! are numbered from 1, the start; step 0 does not exist and is taken as step 1.
+//! are numbered from 1, the start; step 0 does not exist and is taken as step 1. Time is counted in
+//! steps too, and is 1 at the start.
 //!
 //! This crate knows nothing of robots, filters, noise or files.
 //!
@@ -32,6 +36,7 @@
 //! ```
 
 mod amount;
+mod clock;
 mod deformation;
 mod error;
 mod motion;
@@ -39,18 +44,9 @@ mod rotation;
 mod translation;
 
 pub use amount::{Amount, Schedule, Sinusoid};
-pub use deformation::{AnchoredDeformation, Deformation, Direction, Rigid};
+pub use clock::{Clock, MAX_CLOCK_FACTOR};
+pub use deformation::{AnchoredDeformation, Deformation, Direction, Rigid, ScaledDeformation};
 pub use error::MotionError;
-pub use motion::ObjectMotion;
+pub use motion::{ObjectMotion, Turn};
 pub use rotation::{AxisRotation, Rotation};
 pub use translation::{BackAndForth, NoTranslation, SinusoidalTranslation, Translation};
-
-/// Steps that have passed at step `n`, which counts from 1.
-fn elapsed(n: usize) -> usize {
-    n.saturating_sub(1)
-}
-
-/// [`elapsed`], as the argument of a continuous function.
-fn elapsed_f64(n: usize) -> f64 {
-    elapsed(n) as f64
-}

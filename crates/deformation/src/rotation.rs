@@ -4,17 +4,17 @@ use std::fmt::Debug;
 
 use nalgebra::{Rotation3, Unit, Vector3};
 
-use crate::{MotionError, elapsed_f64};
+use crate::MotionError;
 
-/// A rotation that may change from step to step.
+/// A rotation that may change with time.
 pub trait Rotation: Debug + Send + Sync {
-    /// r(n) in SO(3), in the world frame, at step `n` (from 1).
-    fn at(&self, n: usize) -> Rotation3<f64>;
+    /// r(τ) in SO(3), in the world frame, at `time` (in steps, 1 at the start).
+    fn at(&self, time: f64) -> Rotation3<f64>;
 }
 
-/// A rotation about a fixed axis: r(n) = exp(axis · (angle + rate · (n − 1))).
+/// A rotation about a fixed axis: r(τ) = exp(axis · (angle + rate · (τ − 1))).
 ///
-/// The default is the identity at every step, as in the paper's runs.
+/// The default is the identity at all times, as in the paper's runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisRotation {
     axis: Unit<Vector3<f64>>,
@@ -58,8 +58,8 @@ impl Default for AxisRotation {
 }
 
 impl Rotation for AxisRotation {
-    fn at(&self, n: usize) -> Rotation3<f64> {
-        let angle = self.angle_at_start_rad + self.rate_rad_per_step * elapsed_f64(n);
+    fn at(&self, time: f64) -> Rotation3<f64> {
+        let angle = self.angle_at_start_rad + self.rate_rad_per_step * (time - 1.0);
         Rotation3::from_axis_angle(&self.axis, angle)
     }
 }
@@ -74,14 +74,14 @@ mod tests {
     fn turns_about_its_axis() {
         let quarter_turns = AxisRotation::new(Vector3::new(0.0, 0.0, 5.0), 0.0, FRAC_PI_2).unwrap();
         let x = Vector3::x();
-        assert_relative_eq!(quarter_turns.at(1) * x, x, epsilon = 1e-12);
-        assert_relative_eq!(quarter_turns.at(2) * x, Vector3::y(), epsilon = 1e-12);
-        assert_relative_eq!(quarter_turns.at(3) * x, -x, epsilon = 1e-12);
+        assert_relative_eq!(quarter_turns.at(1.0) * x, x, epsilon = 1e-12);
+        assert_relative_eq!(quarter_turns.at(2.0) * x, Vector3::y(), epsilon = 1e-12);
+        assert_relative_eq!(quarter_turns.at(3.0) * x, -x, epsilon = 1e-12);
     }
 
     #[test]
     fn the_default_is_the_identity_exactly() {
-        assert_eq!(AxisRotation::default().at(40), Rotation3::identity());
+        assert_eq!(AxisRotation::default().at(40.0), Rotation3::identity());
     }
 
     #[test]

@@ -100,6 +100,7 @@ proptest! {
             deformation: Arc::new(AnchoredDeformation::new(ANCHOR, Direction::Radial, wave)),
             r_t: Arc::new(r_t),
             r_d: Arc::new(r_d),
+            ..ObjectMotion::default()
         };
         let last = steps + 1;
         let moved: Vector3<f64> = (1..last).map(|n| motion.feature_motion(&rest, n)).sum();
@@ -137,7 +138,7 @@ proptest! {
     fn d_of_the_paper_is_the_change_of_the_displacement(rest in vector(5.0), n in 1_usize..50) {
         let rest = Point3::from(rest);
         let motion = anchored(schedule([0.0, 1.0, 2.0, 3.0, 2.0, 1.0]));
-        let d = motion.deformation.displacement(&rest, n + 1) - motion.deformation.displacement(&rest, n);
+        let d = motion.deformation.displacement(&rest, n as f64 + 1.0) - motion.deformation.displacement(&rest, n as f64);
         prop_assert_eq!(motion.feature_motion(&rest, n), d);
     }
 
@@ -157,16 +158,16 @@ proptest! {
         let deformation = &motion.deformation;
         let mut displacement = Vector3::zeros();
         for k in 0..deformation.mode_count() {
-            displacement += deformation.mode(k, &rest) * deformation.amount(k, n);
+            displacement += deformation.mode(k, &rest) * deformation.amount(k, n as f64);
         }
-        let offset = motion.r_d.at(n) * displacement;
+        let offset = motion.r_d_at(n) * displacement;
         prop_assert!((offset - motion.offset(&rest, n)).norm() < 1e-12);
         // The plain formula of the paper's deformation.
-        let plain = direction.from_anchor(&ANCHOR, &rest) * wave.at(n);
+        let plain = direction.from_anchor(&ANCHOR, &rest) * wave.at(n as f64);
         prop_assert!((displacement - plain).norm() < 1e-12);
         // A mode that does not exist moves nothing.
         let beyond = deformation.mode_count();
-        prop_assert_eq!(deformation.mode(beyond, &rest) * deformation.amount(beyond, n), Vector3::zeros());
+        prop_assert_eq!(deformation.mode(beyond, &rest) * deformation.amount(beyond, n as f64), Vector3::zeros());
     }
 
     #[test]

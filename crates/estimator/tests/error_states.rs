@@ -2,6 +2,7 @@
 //! update written in its own error, not in the paper's.
 
 mod common;
+mod textbook;
 
 use adslam_estimator::{
     Belief, Ekf, ErrorState, Estimator, EulerError, FeatureMeasurement, Measurements,
@@ -9,11 +10,11 @@ use adslam_estimator::{
 };
 use adslam_models::lie::{LieGroup, SeK3, So3TimesPoints};
 use adslam_models::{Control, FeatureId, Pose, State, feature_measurement};
-use common::textbook::{self, Textbook};
 use common::{NOISE, assert_close, control, covariance_matrix, every_pair, vectors};
 use nalgebra::{DMatrix, DVector, Point3, Vector3, Vector6};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
+use textbook::Textbook;
 
 const COUNT: usize = 6;
 const STEP: f64 = 1e-6;

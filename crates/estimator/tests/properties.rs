@@ -1,14 +1,15 @@
 //! What every update must keep to, whatever is measured.
 
 mod common;
+mod filters;
 
 use adslam_estimator::{
     Belief, Covariance, EstimatorError, FeatureMeasurement, Measurements, PairMeasurement,
     StructureMeasurements,
 };
 use adslam_models::{FeatureId, POSE_DIM, State, feature_measurement, feature_offset};
-use common::filters::{Filter, filters};
 use common::{NOISE, assert_close, covariance_matrix};
+use filters::{Filter, filters};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 

@@ -6,15 +6,17 @@
 )]
 
 mod common;
+mod filters;
+mod world;
 
 use adslam_estimator::{Belief, FilterNoise};
 use adslam_models::State;
 use allocation_counter::measure;
 use common::NOISE;
-use common::filters::filters;
-use common::world::{StructureKind, World};
+use filters::filters;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use world::{StructureKind, World};
 
 /// Steps of each run: a hundred of the paper's.
 const STEPS: usize = 10_000;

@@ -11,7 +11,7 @@ use crate::error::{DrawingError, FigureError};
 use crate::figure::{Area, Figure, Frame};
 use crate::shape::{Look, Shape};
 use crate::statistics::Quartiles;
-use crate::style::{Colour, FULL_WIDTH, INK, Stroke, method_colour, method_short_name};
+use crate::style::{Colour, FLOOR, FULL_WIDTH, INK, Stroke, method_colour, method_short_name};
 
 /// A row of the tables.
 struct Column {
@@ -19,6 +19,8 @@ struct Column {
     label: &'static str,
     scale: Scale,
     of_run: fn(&RunSummary) -> Option<f64>,
+    /// What it cannot be below on average, if there is such a thing.
+    floor: Option<fn(&RunSummary) -> f64>,
 }
 
 /// What its axis is like.
@@ -40,12 +42,14 @@ const fn column(
         label,
         scale,
         of_run,
+        floor: None,
     }
 }
 
 use Scale::{Count, FromZero, Log};
 
-/// Every row of the tables, in their order.
+/// Every row of the tables, in their order, but for the drift floor, which is the same in every run: it
+/// is a line in the panel of the pose error.
 const COLUMNS: [Column; 15] = [
     column("Observed feature times", "count", Count, |r| {
         Some(r.observed as f64)
@@ -55,7 +59,8 @@ const COLUMNS: [Column; 15] = [
     }),
     column("Pose error, mean", "cm, rad", Log, |r| {
         Some(r.pose_error_mean)
-    }),
+    })
+    .above(|r| r.drift_floor_mean),
     column("Pose error, maximum", "cm, rad", Log, |r| {
         Some(r.pose_error_max)
     }),
@@ -100,7 +105,8 @@ const ROWS: usize = COLUMNS.len() / 3;
 const HEIGHT: f64 = 148.0;
 
 /// A panel for each row of an experiment's tables, a box for each planner: the quartiles, the
-/// farthest values within 1.5 times their distance, and every run as a dot. Runs without a value,
+/// farthest values within 1.5 times their distance, and every run as a dot. A dotted line is the drift
+/// floor. Runs without a value,
 /// such as those that never see all features, are left out, and how many are
 /// left stands above their box.
 ///
@@ -128,6 +134,11 @@ pub fn boxes(name: &str, experiment: &ExperimentTables) -> Result<Figure, Figure
 }
 
 impl Column {
+    const fn above(mut self, floor: fn(&RunSummary) -> f64) -> Self {
+        self.floor = Some(floor);
+        self
+    }
+
     fn draw(
         &self,
         area: &Area<'_>,
@@ -142,7 +153,11 @@ impl Column {
             .iter()
             .map(|p| method_short_name(p.planner).to_owned())
             .collect();
-        let all = values.iter().flatten().copied();
+        let floor = self.floor.and_then(|floor| {
+            let runs = planners.iter().flat_map(|p| &p.runs);
+            runs.map(floor).find(|floor| *floor > 0.0)
+        });
+        let all = values.iter().flatten().copied().chain(floor);
         let most = all.clone().fold(0.0, f64::max);
         let incomplete = incomplete(planners, &values);
         // The counts of runs stand above everything else.
@@ -175,7 +190,9 @@ impl Column {
                 let middle = f64::from(k) + 0.5;
                 shapes(v, middle, method_colour(p.planner))
             });
-        chart.draw(area, shapes)
+        let end = planners.len() as f64;
+        let floor = floor.map(|y| Shape::line(vec![(0.0, y), (end, y)], FLOOR));
+        chart.draw(area, floor.into_iter().chain(shapes))
     }
 }
 

@@ -8,7 +8,7 @@ use crate::figure::Area;
 use crate::legend::{self, Entry};
 use crate::shape::{Look, Shape};
 use crate::sheet::size_in_units;
-use crate::style::{method_name, method_stroke};
+use crate::style::{FLOOR, method_name, method_stroke};
 
 /// The histories in the order of the paper's tables, whatever order they came in.
 pub(crate) fn in_order<'a>(histories: &[&'a RunHistory]) -> Vec<&'a RunHistory> {
@@ -42,6 +42,13 @@ pub(crate) fn curve(
 ) -> Shape<(f64, f64)> {
     let points = numbered(history).filter_map(|(n, step)| Some((n, value(step)?)));
     Shape::line(points.collect(), method_stroke(history.planner))
+}
+
+/// The drift floor of a history, each step's value times `factor`; empty where it has none.
+pub(crate) fn drift_floor(history: &RunHistory, factor: f64) -> Shape<(f64, f64)> {
+    let points =
+        numbered(history).filter_map(|(n, step)| Some((n, factor * step.metrics.drift_floor_cm?)));
+    Shape::line(points.collect(), FLOOR)
 }
 
 /// An entry for each method that there is.

@@ -1,5 +1,6 @@
 //! Each component of the pose error with the band that the filter claims for it.
 
+use adslam_experiment::metrics::MEAN_NORM_OF_UNIT_GAUSSIAN;
 use adslam_experiment::run::{HistoryStep, RunHistory};
 use adslam_experiment::scenario::PlannerName;
 
@@ -8,10 +9,10 @@ use crate::chart::{Chart, Margins};
 use crate::error::FigureError;
 use crate::figure::{Figure, Frame};
 use crate::legend::Entry;
-use crate::methods::{below_legend, in_order, last_step, numbered, subject};
+use crate::methods::{below_legend, drift_floor, in_order, last_step, numbered, subject};
 use crate::shape::{Look, Shape};
 use crate::sheet::units;
-use crate::style::{AXIS, Colour, FULL_WIDTH, Stroke, method_colour, method_name};
+use crate::style::{AXIS, Colour, FLOOR, FULL_WIDTH, Stroke, method_colour, method_name};
 
 /// The components of the pose, in the order of the state.
 const COMPONENTS: [&str; 6] = [
@@ -31,18 +32,22 @@ const BELOW: f64 = 30.0;
 const NUMBERS: f64 = 44.0;
 
 /// The error of roll, pitch, yaw, x, y and z against the step, estimate less truth, within ±3
-/// standard deviations as the filter has them: a row for each, a column for each history. The
-/// predetermined path has its own scale.
+/// standard deviations as the filter has them: a row for each, a column for each history. Dotted
+/// lines at x, y and z are ±3 standard deviations of the drift floor, the least that any estimator can
+/// have. The predetermined path has its own scale.
 ///
 /// # Errors
 /// [`FigureError::Layout`].
 pub fn pose_error(name: &str, histories: &[&RunHistory]) -> Result<Figure, FigureError> {
     let histories = in_order(histories);
     let steps = Axis::steps(last_step(&histories));
-    let legend = [
+    let mut legend = vec![
         Entry::new(Look::Line(Stroke::solid(AXIS, 1.2)), "estimate − truth"),
         Entry::new(band(PlannerName::Predetermined), "±3σ of the filter"),
     ];
+    if histories.iter().any(|h| !floor(h, 1.0).points.is_empty()) {
+        legend.push(Entry::new(Look::Line(FLOOR), "±3σ of the drift floor"));
+    }
     let frame = Frame {
         name,
         title: &format!(
@@ -135,13 +140,28 @@ fn error(step: &HistoryStep, component: usize) -> (f64, f64) {
 /// What the axis of a component has to hold.
 fn extremes(histories: &[&RunHistory], component: usize) -> Vec<f64> {
     let steps = histories.iter().flat_map(|h| &h.steps);
-    steps
+    let errors = steps
         .map(|step| error(step, component))
-        .flat_map(|(error, sigma)| [error, 3.0 * sigma])
-        .collect()
+        .flat_map(|(error, sigma)| [error, 3.0 * sigma]);
+    let floors = histories
+        .iter()
+        .filter(|_| is_position(component))
+        .flat_map(|h| floor(h, 1.0).points)
+        .map(|point| point.1);
+    errors.chain(floors).collect()
 }
 
-fn shapes(history: &RunHistory, component: usize) -> [Shape<(f64, f64)>; 2] {
+/// Whether a component of the pose is one of the position, which alone has a floor.
+fn is_position(component: usize) -> bool {
+    component >= 3
+}
+
+/// Three standard deviations of the drift floor on an axis, above or below zero.
+fn floor(history: &RunHistory, sign: f64) -> Shape<(f64, f64)> {
+    drift_floor(history, 3.0 * sign / MEAN_NORM_OF_UNIT_GAUSSIAN)
+}
+
+fn shapes(history: &RunHistory, component: usize) -> Vec<Shape<(f64, f64)>> {
     let values: Vec<(f64, f64, f64)> = numbered(history)
         .map(|(n, step)| (n, error(step, component)))
         .map(|(n, (error, sigma))| (n, error, 3.0 * sigma))
@@ -150,10 +170,14 @@ fn shapes(history: &RunHistory, component: usize) -> [Shape<(f64, f64)>; 2] {
     let below = values.iter().rev().map(|&(n, _, bound)| (n, -bound));
     let line = values.iter().map(|&(n, error, _)| (n, error)).collect();
     let colour = line_colour(history.planner);
-    [
+    let mut shapes = vec![
         Shape::new(above.chain(below).collect(), band(history.planner)),
         Shape::line(line, Stroke::solid(colour, 1.0)),
-    ]
+    ];
+    if is_position(component) {
+        shapes.extend([1.0, -1.0].map(|sign| floor(history, sign)));
+    }
+    shapes
 }
 
 fn band(method: PlannerName) -> Look {

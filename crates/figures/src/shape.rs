@@ -30,7 +30,7 @@ pub(crate) enum Look {
 }
 
 /// Points in the coordinates `C`, and how they look.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Shape<C> {
     pub points: Vec<C>,
     pub look: Look,

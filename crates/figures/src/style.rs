@@ -62,6 +62,9 @@ impl Stroke {
     }
 }
 
+/// The drift floor.
+pub(crate) const FLOOR: Stroke = Stroke::dashed(INK, 0.9, (0.9, 1.9));
+
 /// The colour of a method everywhere: Okabe and Ito's, which are told apart without colour vision.
 pub(crate) const fn method_colour(method: PlannerName) -> Colour {
     match method {

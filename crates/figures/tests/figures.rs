@@ -105,6 +105,8 @@ fn every_figure_is_well_formed_and_labelled_with_units() {
                 let is_named = figure.svg().contains(method);
                 assert!(is_named || figure.name() == "environments");
             }
+            let has_floor = matches!(figure.name(), "comparison" | "pose-error");
+            assert_eq!(figure.svg().contains("drift floor"), has_floor);
             let png = figure.png_scaled(0.5).unwrap();
             assert!(png.starts_with(b"\x89PNG") && png.len() > 2000);
         }

@@ -13,7 +13,7 @@ use std::process::Command;
 use adslam_experiment::run::RunHistory;
 use adslam_experiment::scenario::PlannerName;
 use adslam_replay::write_html;
-use common::history;
+use common::{history, history_with};
 
 /// The first of these programs that is on the path.
 fn program(names: &[&str]) -> Option<PathBuf> {
@@ -69,7 +69,10 @@ fn pages_of_one_and_two_runs_work_in_a_browser() {
     let folder = tempfile::tempdir().unwrap();
     let mut combined = history("polygon", PlannerName::Combined, 40);
     combined.scenario = "</script><b>polygon".to_owned();
-    let heart = history("heart", PlannerName::Global, 12);
+    // An object that turns as a whole, and breathes deeper than believed.
+    let departed = "[mismatch]\ndeformation_factor = 1.5\n\n\
+        [mismatch.rotation]\naxis = [1, 2, 3]\nrate_deg_per_step = 4";
+    let heart = history_with("heart", departed, PlannerName::Global, 12);
     let one = folder.path().join("one.html");
     let two = folder.path().join("two.html");
     write_html(&[&combined], &one).unwrap();

@@ -61,13 +61,14 @@ fn run_once(
     answer.set("summary", summary);
     answer.set_files(&files);
     answer.say(format_args!(
-        "{}, {}, seed {}: observed {} feature times, {coverage}, mean pose error {:.3}, mean \
-         feature error {:.3} cm",
+        "{}, {}, seed {}: observed {} feature times, {coverage}, mean pose error {:.3} (drift \
+         floor {:.3}), mean feature error {:.3} cm",
         setup.name,
         args.planner,
         args.seed,
         summary.observed,
         summary.pose_error_mean,
+        summary.drift_floor_mean,
         summary.feature_error_mean
     ));
     let names: Vec<String> = files

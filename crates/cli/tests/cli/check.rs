@@ -8,7 +8,7 @@ use super::support::{BAD_INPUT, Place, polygon, repository};
 fn all_shipped_files_are_valid() {
     let place = Place::new(&[]);
     let mut files = Vec::new();
-    for folder in ["scenarios", "configs"] {
+    for folder in ["scenarios", "configs", "sweeps"] {
         for entry in fs::read_dir(repository(folder)).unwrap() {
             files.push(entry.unwrap().path().display().to_string());
         }
@@ -34,7 +34,7 @@ fn every_wrong_file_is_explained_and_the_others_are_checked() {
         "check typo.toml colour.toml absent.toml good.toml",
         &[
             "did you mean `range_cm`?",
-            "colour.toml is neither a scenario nor a configuration",
+            "colour.toml is neither a scenario nor a configuration nor a sweep",
             "cannot read absent.toml",
             "3 of 4 files are not valid",
         ],

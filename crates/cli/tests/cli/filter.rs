@@ -33,10 +33,13 @@ fn the_log_in_the_documentation() {
         keys.sort_unstable();
         let expected = [
             "covariance_diagonal",
+            "feature_nis",
             "features",
             "pose",
             "pose_covariance",
+            "rejected_features",
             "step",
+            "structure_nis",
             "trace",
         ];
         assert_eq!(keys, expected);
@@ -115,4 +118,54 @@ fn keep_complete_keeps_what_is_before_a_broken_line() {
         place.read("whole-estimates.jsonl"),
         place.read("estimates.jsonl")
     );
+}
+
+/// One estimator after the other over the same log: they agree at first, and are not the same filter.
+#[test]
+fn the_estimators_differ() {
+    let place = Place::new(&[("log.jsonl", &lines(&log()))]);
+    let of = |name: &str| {
+        place.succeeds(&format!(
+            "filter log.jsonl --estimator {name} --out {name}.jsonl"
+        ));
+        estimates(&place, &format!("{name}.jsonl"))
+    };
+    let [euler, so3, invariant] = ["euler_ekf", "so3_ekf", "right_invariant_ekf"].map(of);
+    let x = |line: &Value| line["pose"][3].as_f64().unwrap();
+    for (a, b) in [(&euler, &so3), (&so3, &invariant)] {
+        assert_eq!(a.len(), b.len());
+        assert!((x(&a[0]) - x(&b[0])).abs() < 0.05);
+        assert_ne!(a, b);
+    }
+    place.succeeds("filter log.jsonl --out default.jsonl");
+    assert_eq!(estimates(&place, "default.jsonl"), euler);
+    let words = ["no estimator is called", "did you mean so3_ekf?"];
+    place.refuses("filter log.jsonl --estimator so3_efk --out x.jsonl", &words);
+}
+
+#[test]
+fn the_gate_keeps_out_a_measurement_that_cannot_be() {
+    let mut steps = log();
+    steps[1]["feature_measurements"][0]["z"] = serde_json::json!([50.0, 0.0, 0.0]);
+    let place = Place::new(&[("log.jsonl", &lines(&steps))]);
+    let id = &steps[1]["feature_measurements"][0]["id"];
+    let said = place.succeeds("filter log.jsonl --gate 0.999 --out gated.jsonl");
+    assert!(
+        said.out.contains("the gate kept out 1 feature measurement"),
+        "{said:?}"
+    );
+    let gated = estimates(&place, "gated.jsonl");
+    assert_eq!(gated[0]["rejected_features"], serde_json::json!([id]));
+    place.succeeds("filter log.jsonl --out open.jsonl");
+    let open = estimates(&place, "open.jsonl");
+    assert_eq!(open[0]["rejected_features"], serde_json::json!([]));
+    let x = |line: &Value| line["pose"][3].as_f64().unwrap().abs();
+    assert!(
+        x(&open[0]) > 1.0 && x(&gated[0]) < 1.0,
+        "it would have led far away"
+    );
+    for gate in ["0", "1", "nan", "much"] {
+        let arguments = format!("filter log.jsonl --gate {gate} --out x.jsonl");
+        place.refuses(&arguments, &["write a number above 0 and below 1"]);
+    }
 }

@@ -12,6 +12,7 @@ mod bad_output;
 mod bad_scenarios;
 mod bad_tables;
 mod check;
+mod consistency;
 mod evo;
 mod export;
 mod failures;
@@ -20,10 +21,13 @@ mod help;
 #[cfg(unix)]
 mod interrupt;
 mod json;
+#[cfg(unix)]
+mod killed;
 mod mesh;
 mod new;
 mod replay;
 mod run;
 mod schema;
 mod support;
+mod sweep;
 mod tables;

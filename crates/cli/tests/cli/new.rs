@@ -37,13 +37,19 @@ fn what_is_written_is_valid_as_it_is_and_with_every_optional_key() {
         "{said:?}"
     );
     place.succeeds("new config");
-    let said = place.succeeds("check scenario.toml config.toml");
+    place.succeeds("new sweep");
+    let said = place.succeeds("check scenario.toml config.toml sweep.toml");
     assert_eq!(said.err, "", "nothing to warn of");
     let template = place.read("scenario.toml");
     let all = with_optional_keys(&template);
     assert!(all.matches("\n#").count() < template.matches("\n#").count() - 20);
     fs::write(place.path("all.toml"), all).unwrap();
-    place.succeeds("check all.toml");
+    fs::write(
+        place.path("all-sweep.toml"),
+        with_optional_keys(&place.read("sweep.toml")),
+    )
+    .unwrap();
+    place.succeeds("check all.toml all-sweep.toml");
 }
 
 /// A key that is new in the reader has to come into the template.
@@ -52,9 +58,11 @@ fn the_templates_have_every_key() {
     let place = Place::new(&[]);
     place.succeeds("new scenario");
     place.succeeds("new config");
+    place.succeeds("new sweep");
     for (kind, roots) in [
         ("scenario", &["Scenario"][..]),
         ("config", &["Configuration", "Experiment"]),
+        ("sweep", &["Sweep", "SweepPoint"]),
     ] {
         let output = place.command(&format!("schema {kind}")).output().unwrap();
         let schema: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -9,7 +9,7 @@ use super::support::{BAD_INPUT, Place, repository};
 #[test]
 fn the_printed_schemas_are_those_that_are_shipped() {
     let place = Place::new(&[]);
-    for kind in ["scenario", "config", "published"] {
+    for kind in ["scenario", "config", "published", "sweep"] {
         let output = place.command(&format!("schema {kind}")).output().unwrap();
         assert!(output.status.success() && output.stderr.is_empty());
         let printed = String::from_utf8(output.stdout).unwrap();
@@ -26,12 +26,13 @@ fn the_printed_schemas_are_those_that_are_shipped() {
 
 #[test]
 fn every_shipped_file_names_its_schema_first() {
-    for folder in ["scenarios", "configs"] {
+    for folder in ["scenarios", "configs", "sweeps"] {
         for entry in fs::read_dir(repository(folder)).unwrap() {
             let path = entry.unwrap().path();
             let text = fs::read_to_string(&path).unwrap();
             let kind = match (folder, path.file_name().unwrap().to_str().unwrap()) {
                 ("scenarios", _) => "scenario",
+                ("sweeps", _) => "sweep",
                 (_, "published.toml") => "published",
                 _ => "config",
             };
@@ -45,5 +46,8 @@ fn every_shipped_file_names_its_schema_first() {
 fn an_unknown_kind_is_answered_with_the_known_ones() {
     let said = Place::new(&[]).adslam("schema scenarios");
     assert_eq!(said.code, Some(BAD_INPUT));
-    assert!(said.err.contains("scenario, config, published"), "{said:?}");
+    assert!(
+        said.err.contains("scenario, config, published, sweep"),
+        "{said:?}"
+    );
 }

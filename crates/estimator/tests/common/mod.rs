@@ -2,10 +2,6 @@
 //! random beliefs to compare on.
 #![allow(dead_code, reason = "each test file uses a part")]
 
-pub mod filters;
-pub mod textbook;
-pub mod world;
-
 use adslam_estimator::{Belief, Covariance, FeatureMeasurement, FilterNoise, PairMeasurement};
 use adslam_models::{
     Control, FeatureId, Pose, State, feature_measurement, feature_measurement_jacobians,

@@ -19,7 +19,8 @@ pub(super) fn markdown(results: &ConsistencyResults) -> String {
         "{} runs of each cell, seeds {} to {last_seed}. Mean over steps and runs, divided by the degrees of \
          freedom, so that 1 is consistent; in brackets the part of the steps at which the mean over the runs \
          lies within the {:.0} % interval of χ². **Bold**: the mean over the steps lies outside, with ▲ where \
-         the filter is over-confident and ▼ where it is cautious.\n",
+         the filter is over-confident and ▼ where it is cautious. Errors are means over steps and runs (rad and \
+         cm together, the drift floor in cm).\n",
         results.runs,
         results.first_seed,
         CONFIDENCE * 100.0,
@@ -46,8 +47,7 @@ fn table(cells: &[&ConsistencyCell]) -> Table {
             });
         format!("{}{interval}", measure.title())
     }));
-    head.push("Pose error".to_owned());
-    head.push("Object-relative".to_owned());
+    head.extend(["Pose error", "Drift floor", "Object-relative"].map(str::to_owned));
     table.set_header(head);
     for cell in cells {
         let mut row = vec![
@@ -56,7 +56,7 @@ fn table(cells: &[&ConsistencyCell]) -> Table {
         ];
         let number = |text: String| Cell::new(text).set_alignment(CellAlignment::Right);
         row.extend(Measure::ALL.map(|measure| number(shown(cell.judgement(measure)))));
-        for error in [cell.pose_error, cell.relative_pose_error] {
+        for error in [cell.pose_error, cell.drift_floor, cell.relative_pose_error] {
             row.push(number(format!("{error:.3}")));
         }
         table.add_row(row);

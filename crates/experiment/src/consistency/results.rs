@@ -39,7 +39,9 @@ pub struct ConsistencyCell {
     pub runs: usize,
     /// Mean over runs and steps of eq. (11), radians and cm together.
     pub pose_error: f64,
-    /// The same relative to the object.
+    /// The drift floor: what of that no estimator can do without, cm.
+    pub drift_floor: f64,
+    /// The pose error relative to the object.
     pub relative_pose_error: f64,
     /// Feature measurements that the gate kept out, in all runs.
     pub rejected_measurements: usize,
@@ -78,6 +80,7 @@ impl ConsistencyResults {
                 planner: cell.planner,
                 runs: done.len(),
                 pose_error: mean(|run| run.pose_error_mean),
+                drift_floor: mean(|run| run.drift_floor_mean),
                 relative_pose_error: mean(|run| run.relative_pose_error_mean),
                 rejected_measurements: summaries.clone().map(|r| r.rejected_measurements).sum(),
                 judgements: Measure::ALL.into_iter().filter_map(judge).collect(),

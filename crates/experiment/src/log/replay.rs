@@ -17,7 +17,7 @@ use crate::diagnostics::InputError;
 use crate::output::AtomicFile;
 use crate::run::{Interrupt, gate};
 use crate::scenario::EstimatorName;
-use crate::scenario::values::Probability;
+use crate::scenario::values::GateProbability;
 
 /// A filter working through a log.
 pub struct Replay<R> {
@@ -35,7 +35,7 @@ pub struct FilterChoice {
     /// The estimator.
     pub estimator: EstimatorName,
     /// The part of good feature measurements that pass its gate; absent where there is none.
-    pub gate_probability: Option<Probability>,
+    pub gate_probability: Option<GateProbability>,
 }
 
 /// What to do with a line that cannot be used.

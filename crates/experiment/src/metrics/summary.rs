@@ -4,6 +4,7 @@ use adslam_estimator::{Nis, UpdateReport};
 use serde::{Deserialize, Serialize};
 
 use super::step::{StepMetrics, mean};
+use crate::world::FaultCounts;
 
 /// The result of one run. Pose errors mix radians and cm as eq. (11) does; lengths are cm.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -16,6 +17,9 @@ pub struct RunSummary {
     pub steps_to_full_coverage: Option<usize>,
     /// Mean over all steps of eq. (11).
     pub pose_error_mean: f64,
+    /// Mean over all steps of the drift floor: the error of the position that no estimator can do
+    /// without, see [`DriftFloor`](super::DriftFloor), cm.
+    pub drift_floor_mean: f64,
     /// Maximum over all steps of eq. (11).
     pub pose_error_max: f64,
     /// Mean over the features of eq. (12) at the last step.
@@ -48,6 +52,9 @@ pub struct RunSummary {
     pub steps_below_clearance: usize,
     /// Decisions for which no action was safe.
     pub compromised_decisions: usize,
+    /// What went wrong with measurements; absent where the scenario lets nothing go wrong.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub faults: Option<FaultCounts>,
     /// Time to choose an action.
     pub decision_ms: DecisionTimes,
 }
@@ -92,6 +99,7 @@ impl DecisionTimes {
 #[derive(Clone, Debug, Default)]
 pub struct SummaryBuilder {
     pose_errors: Vec<f64>,
+    drift_floors: Vec<f64>,
     relative_pose_errors: Vec<f64>,
     relative_feature_errors: Vec<f64>,
     pose_nees: Vec<f64>,
@@ -107,6 +115,7 @@ pub struct SummaryBuilder {
     inside: usize,
     below_clearance: usize,
     compromised: usize,
+    faults: Option<FaultCounts>,
     decision_ms: Vec<f64>,
 }
 
@@ -118,6 +127,27 @@ impl SummaryBuilder {
             seen: vec![false; feature_count],
             ..Self::default()
         }
+    }
+
+    /// In a world where measurements may go wrong, or not.
+    #[must_use]
+    pub fn with_faults(self, can_happen: bool) -> Self {
+        Self {
+            faults: can_happen.then(FaultCounts::default),
+            ..self
+        }
+    }
+
+    /// Adds what went wrong with the measurements of a step.
+    pub fn add_faults(&mut self, faults: FaultCounts) {
+        if let Some(sum) = &mut self.faults {
+            *sum += faults;
+        }
+    }
+
+    /// Adds the drift floor at a step, cm.
+    pub fn add_drift_floor(&mut self, expected_error: f64) {
+        self.drift_floors.push(expected_error);
     }
 
     /// Adds what happened at `step` (from 1): the features then visible (by number), the errors, and the
@@ -181,6 +211,7 @@ impl SummaryBuilder {
             observed: self.observed,
             steps_to_full_coverage: self.coverage_step,
             pose_error_mean: mean(&self.pose_errors),
+            drift_floor_mean: mean(&self.drift_floors),
             pose_error_max: largest(&self.pose_errors),
             feature_error_mean: mean(&self.last_feature_errors),
             feature_error_max: largest(&self.last_feature_errors),
@@ -195,6 +226,7 @@ impl SummaryBuilder {
             steps_inside_object: self.inside,
             steps_below_clearance: self.below_clearance,
             compromised_decisions: self.compromised,
+            faults: self.faults,
             decision_ms: DecisionTimes::of(self.decision_ms),
         }
     }
@@ -238,10 +270,14 @@ mod tests {
                 rejected: 2,
             });
         }
+        [0.0, 0.1, 0.2]
+            .into_iter()
+            .for_each(|floor| builder.add_drift_floor(floor));
         let run = builder.finish(9);
         assert_eq!((run.seed, run.observed), (9, 3), "the start does not count");
         assert_eq!(run.steps_to_full_coverage, Some(3));
         assert!((run.pose_error_mean - 0.3).abs() < 1e-15);
+        assert!((run.drift_floor_mean - 0.1).abs() < 1e-15);
         assert_eq!(
             (run.pose_error_max, run.feature_error_max),
             (0.6, 3.0 * 0.6)

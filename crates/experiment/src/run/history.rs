@@ -19,8 +19,9 @@ use crate::scenario::PlannerName;
 /// What `format` says in a history file.
 pub const HISTORY_FORMAT: &str = "adslam-history";
 
-/// The version of history files that this code writes and reads.
-pub const HISTORY_VERSION: u32 = 1;
+/// The version of history files that this code writes. It reads those before as well: version 2 has
+/// added the turn of the object and the drift floor.
+pub const HISTORY_VERSION: u32 = 2;
 
 /// The name of the history file in a run's folder.
 pub const HISTORY_FILE: &str = "history.json";
@@ -35,7 +36,7 @@ pub const HISTORY_FILE: &str = "history.json";
 pub struct RunHistory {
     /// [`HISTORY_FORMAT`].
     pub format: String,
-    /// [`HISTORY_VERSION`].
+    /// [`HISTORY_VERSION`], or a smaller one.
     pub version: u32,
     /// The scenario's name.
     pub scenario: String,
@@ -69,7 +70,8 @@ pub enum DrawnSurface {
     /// That of the features themselves: the topology over the true features.
     Features,
     /// A mesh that moves as the scenario says, without noise. At step n the vertex that rests at p
-    /// is at p + base(n) + r_d(n) Σₖ aₖ(n) mₖ, with [`ObjectStep`] and the vertex's modes mₖ.
+    /// is at base(n) + turn(n) (p + r_d(n) Σₖ aₖ(n) mₖ), with [`ObjectStep`] and the vertex's modes
+    /// mₖ.
     Mesh {
         /// Where the vertices rest, cm.
         rest_cm: Vec<[f64; 3]>,
@@ -84,8 +86,12 @@ pub enum DrawnSurface {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectStep {
-    /// The sum of r_t t over the steps before, cm.
+    /// The sum of r_t t over the steps before, and what the turn adds where it is not about the
+    /// origin, cm.
     pub base_cm: [f64; 3],
+    /// The rotation of the object as a whole, row by row; absent where it does not turn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turn: Option<[f64; 9]>,
     /// r_d, row by row.
     pub r_d: [f64; 9],
     /// aₖ for each mode of the deformation.
@@ -154,6 +160,10 @@ pub struct HistoryMetrics {
     pub orientation_error_rad: f64,
     /// The position's part of it, cm.
     pub position_error_cm: f64,
+    /// The error of the position that is to be expected of any estimator, see
+    /// [`DriftFloor`](crate::metrics::DriftFloor), cm; none in files of version 1.
+    #[serde(default)]
+    pub drift_floor_cm: Option<f64>,
     /// Eq. (11) relative to the object.
     pub relative_pose_error: f64,
     /// Mean of eq. (12) over the features, cm.
@@ -213,13 +223,15 @@ impl RunHistory {
         };
         let object = &step.object;
         let base = Vector3::from(object.base_cm);
+        let turn = object.turn.map(|rows| Matrix3::from_row_slice(&rows));
+        let turn = turn.unwrap_or_else(Matrix3::identity);
         let r_d = Matrix3::from_row_slice(&object.r_d);
         let vertex = |(v, p): (usize, &[f64; 3])| {
             let fields = modes.iter().zip(&object.amounts);
             let displacement: Vector3<f64> = fields
                 .filter_map(|(mode, amount)| Some(Vector3::from(*mode.get(v)?) * *amount))
                 .sum();
-            Point3::from(*p) + base + r_d * displacement
+            turn * (Point3::from(*p) + r_d * displacement) + base
         };
         rest.iter().enumerate().map(vertex).collect()
     }
@@ -281,9 +293,9 @@ impl HistoryStep {
 }
 
 impl ObjectStep {
-    /// `r_d` as a row-major array.
-    fn rows(r_d: &Rotation3<f64>) -> [f64; 9] {
-        let m = r_d.matrix();
+    /// A rotation as a row-major array.
+    fn rows(rotation: &Rotation3<f64>) -> [f64; 9] {
+        let m = rotation.matrix();
         std::array::from_fn(|i| m[(i / 3, i % 3)])
     }
 }

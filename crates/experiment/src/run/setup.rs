@@ -6,14 +6,14 @@ use adslam_deformation::ObjectMotion;
 use adslam_estimator::{Estimator, EstimatorError, EstimatorKind, FilterNoise, Parallelism};
 use adslam_models::{Control, EulerAngles, Pose, Sensor};
 use adslam_planning::{ActionSet, PlanningModel};
-use adslam_surface::{Mesh, Surface};
+use adslam_surface::{Mesh, Surface, Topology};
 use nalgebra::{Point3, Vector3};
 
 use super::rest_object::{RestObject, blamed};
 use crate::diagnostics::InputError;
 use crate::scenario::{self, Scenario, Structure, Viewpoints, values};
 use crate::statistics::chi_squared;
-use crate::world::{DeformationNoise, WorldModel, WorldNoise};
+use crate::world::{DeformationNoise, Faults, WorldModel, WorldNoise};
 
 /// Everything that the runs of one scenario have in common.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ pub struct Setup {
     /// The control of the predetermined path.
     pub predetermined: Control,
     /// The surface that is drawn: the mesh's or phantom's, or the features' own.
-    pub drawn: Mesh,
+    pub drawn: Arc<Mesh>,
     /// What the user should know before running.
     pub warnings: Vec<String>,
     /// The scenario itself, for the planners' parameters.
@@ -53,6 +53,30 @@ impl Setup {
     /// object; each points at the place in the scenario.
     pub fn new(scenario: &Scenario) -> Result<Self, InputError> {
         let object = RestObject::build(scenario)?;
+        let (topology, drawn) = (Arc::new(object.topology), Arc::new(object.drawn));
+        Self::around(object.features, topology, drawn, scenario)
+    }
+
+    /// The setup of another scenario. Its object, where it is the same, is shared and not built again.
+    ///
+    /// # Errors
+    /// As [`Setup::new`].
+    pub fn varied(&self, scenario: &Scenario) -> Result<Self, InputError> {
+        let mesh_is_given = (self.scenario.mesh_is_given, scenario.mesh_is_given);
+        if self.scenario.object != scenario.object || mesh_is_given != (false, false) {
+            return Self::new(scenario);
+        }
+        let topology = Arc::clone(&self.planning.topology);
+        let features = self.world.rest.clone();
+        Self::around(features, topology, Arc::clone(&self.drawn), scenario)
+    }
+
+    fn around(
+        features: Vec<Point3<f64>>,
+        topology: Arc<Topology>,
+        drawn: Arc<Mesh>,
+        scenario: &Scenario,
+    ) -> Result<Self, InputError> {
         let noise = scenario.filter_noise();
         let (robot, sensor) = (&scenario.robot, &scenario.sensor);
         let start = Pose::new(
@@ -72,7 +96,7 @@ impl Setup {
                 min_range: *sensor.min_range_cm,
                 max_range: *sensor.range_cm,
             },
-            topology: Arc::new(object.topology),
+            topology,
             actions: action_set(&robot.actions),
             clearance: *robot.clearance_cm,
         };
@@ -80,12 +104,13 @@ impl Setup {
         let setup = Self {
             name: scenario.name.to_string(),
             steps: scenario.steps.get(),
-            known_motion: scenario.believed_motion(&object.features)?,
+            known_motion: scenario.believed_motion(&features)?,
             world: WorldModel {
                 start,
-                motion: scenario.true_motion(&object.features)?,
-                rest: object.features,
+                motion: scenario.true_motion(&features)?,
+                rest: features,
                 noise: world_noise(scenario, noise.initial_feature_sigma_cm),
+                faults: faults(&scenario.mismatch),
             },
             planning,
             estimator: scenario.filter.estimator.into(),
@@ -95,7 +120,7 @@ impl Setup {
                 rotation: path.rotation_deg.map(f64::to_radians),
                 translation: *path.translation_cm,
             },
-            drawn: object.drawn,
+            drawn,
             warnings: Vec::new(),
             scenario: scenario.clone(),
         };
@@ -199,25 +224,38 @@ impl Setup {
 }
 
 /// The squared distance that good measurements of a feature keep with this probability.
-pub(crate) fn gate(probability: values::Probability) -> f64 {
+pub(crate) fn gate(probability: values::GateProbability) -> f64 {
     chi_squared::quantile(*probability, 3)
 }
 
 fn world_noise(scenario: &Scenario, initial_feature_sigma: f64) -> WorldNoise {
-    let noise = &scenario.noise;
+    let (noise, mismatch) = (&scenario.noise, &scenario.mismatch);
+    let of_robot = *mismatch.robot_noise_factor;
+    let of_features = *mismatch.feature_noise_factor;
     WorldNoise {
-        rotation_sigma: *noise.rotation_sigma_rad,
-        translation_sigma: *noise.translation_sigma_cm,
-        feature_translation_sigma: *noise.feature_translation_sigma_cm,
-        feature_deformation_sigma: *noise.feature_deformation_sigma_cm,
-        feature_measurement_sigma: *noise.feature_measurement_sigma_cm,
-        structure_measurement_sigma: *noise.structure_measurement_sigma_cm,
+        rotation_sigma: of_robot * *noise.rotation_sigma_rad,
+        translation_sigma: of_robot * *noise.translation_sigma_cm,
+        feature_translation_sigma: of_features * *noise.feature_translation_sigma_cm,
+        feature_deformation_sigma: of_features * *noise.feature_deformation_sigma_cm,
+        feature_measurement_sigma: *mismatch.measurement_noise_factor
+            * *noise.feature_measurement_sigma_cm,
+        structure_measurement_sigma: *mismatch.structure_noise_factor
+            * *noise.structure_measurement_sigma_cm,
         initial_feature_sigma,
         deformation: match noise.deformation_noise {
             scenario::DeformationNoise::Fresh => DeformationNoise::Fresh,
             scenario::DeformationNoise::Accumulating => DeformationNoise::Accumulating,
         },
         truncate_at_sigmas: noise.truncate_at_sigmas.map(|limit| *limit),
+    }
+}
+
+fn faults(mismatch: &scenario::Mismatch) -> Faults {
+    Faults {
+        outlier_probability: *mismatch.outlier_probability,
+        outlier_sigma: mismatch.outlier_sigma_cm.map_or(0.0, |sigma| *sigma),
+        missed_detection_probability: *mismatch.missed_detection_probability,
+        dropped_structure_probability: *mismatch.dropped_structure_probability,
     }
 }
 

@@ -13,7 +13,7 @@ use nalgebra::{Matrix6, Point3, Vector3};
 
 use super::{Interrupt, RunHistory, Setup, build_planner};
 use crate::ExperimentError;
-use crate::metrics::{RunSummary, StepMetrics, SummaryBuilder, measure_step};
+use crate::metrics::{DriftFloor, RunSummary, StepMetrics, SummaryBuilder, measure_step};
 use crate::scenario::PlannerName;
 use crate::world::World;
 
@@ -28,12 +28,14 @@ pub struct StepView<'a> {
     pub features: &'a [Point3<f64>],
     /// What the filter believes.
     pub belief: &'a Belief,
-    /// The features that the robot really sees.
+    /// The features that the robot really sees; those that it fails to measure do not count.
     pub visible: &'a [FeatureId],
     /// The errors.
     pub metrics: &'a StepMetrics,
     /// What the measurements said about the filter; none at the start.
     pub update: Option<&'a UpdateReport>,
+    /// The drift floor: the error of the position that is to be expected of any estimator, cm.
+    pub drift_floor: f64,
     /// Signed distance of the true robot from the true surface, cm, negative inside.
     pub surface_distance: f64,
     /// The decision that led here, and how long it took in ms; none at the start.
@@ -113,6 +115,7 @@ struct Run<'a> {
     belief: Belief,
     planner: Box<dyn Planner>,
     builder: SummaryBuilder,
+    drift_floor: DriftFloor,
     deadline_ms: Option<f64>,
 }
 
@@ -149,7 +152,9 @@ impl<'a> Run<'a> {
         let run = Self {
             setup,
             sight: Sight::of(&world, setup, &name)?,
-            builder: SummaryBuilder::new(world.features().len()),
+            builder: SummaryBuilder::new(world.features().len())
+                .with_faults(setup.world.faults.can_happen()),
+            drift_floor: DriftFloor::at_start(&setup.world.noise, world.features().len()),
             name,
             world,
             estimator,
@@ -181,6 +186,7 @@ impl<'a> Run<'a> {
         let milliseconds = milliseconds_since(start);
 
         self.world.advance(&decision.control);
+        self.drift_floor.advance();
         self.sight = Sight::of(&self.world, self.setup, &self.name)?;
         let update = self
             .filter(&decision.control, &feature_motion)
@@ -204,10 +210,16 @@ impl<'a> Run<'a> {
             .iter()
             .map(|&(feature, z)| FeatureMeasurement { feature, z })
             .collect();
-        let structure = if self.setup.planning.measures_structure {
-            StructureMeasurements::AllPairsSummed(&measured.structure_sums)
-        } else {
-            StructureMeasurements::None
+        self.sight.visible = features.iter().map(|measured| measured.feature).collect();
+        let takes_structure = self.setup.planning.measures_structure;
+        let mut faults = measured.faults;
+        if !takes_structure {
+            faults.dropped_structures = 0;
+        }
+        self.builder.add_faults(faults);
+        let structure = match &measured.structure_sums {
+            Some(sums) if takes_structure => StructureMeasurements::AllPairsSummed(sums),
+            _ => StructureMeasurements::None,
         };
         let measurements = Measurements {
             features: &features,
@@ -239,6 +251,8 @@ impl<'a> Run<'a> {
         let seen = sight.visible.iter().map(|feature| feature.0);
         self.builder
             .add_step(step, seen, &metrics, sight.surface_distance, clearance);
+        let drift_floor = self.drift_floor.expected_error();
+        self.builder.add_drift_floor(drift_floor);
         if let Some(decided) = decided {
             self.builder
                 .add_decision(decided.milliseconds, decided.decision.compromised);
@@ -252,6 +266,7 @@ impl<'a> Run<'a> {
             visible: &sight.visible,
             metrics: &metrics,
             update: decided.map(|decided| &decided.update),
+            drift_floor,
             surface_distance: sight.surface_distance,
             decision: decided.map(|decided| (&decided.decision, decided.milliseconds)),
             scores: self.planner.scores(),

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::values::{FeatureCount, SMALLEST};
+use super::values::{FeatureCount, SMALLEST, Vec3};
 use super::{Grid, Motion, Object, Points, Scenario, Structure, Viewpoints};
 use crate::diagnostics::{Document, InputError};
 
@@ -24,6 +24,7 @@ pub(super) fn check(scenario: &Scenario, document: &Document) -> Result<(), Inpu
     if let Some(known) = &scenario.known_motion {
         check_motion(known, "known_motion", &scenario.object, document)?;
     }
+    scenario.mismatch.check(&scenario.noise, document)?;
     check_filter(scenario, document)?;
     check_robot(scenario, document)?;
     if let Viewpoints::Sampled(grid) = &scenario.viewpoints {
@@ -120,14 +121,19 @@ fn check_motion(
         ("deformation_rotation", &motion.deformation_rotation),
     ];
     for (key, rotation) in rotations {
-        if rotation
-            .as_ref()
-            .is_some_and(|rotation| rotation.axis.norm() < SMALLEST)
-        {
-            return Err(document
-                .error_at(&format!("{table}.{key}.axis"), "the axis has no direction")
-                .with_help("write a vector other than zero, such as [0.0, 0.0, 1.0]"));
+        if let Some(rotation) = rotation {
+            check_axis(rotation.axis, &format!("{table}.{key}.axis"), document)?;
         }
+    }
+    Ok(())
+}
+
+/// An axis has to have a direction.
+pub(super) fn check_axis(axis: Vec3, key: &str, document: &Document) -> Result<(), InputError> {
+    if axis.norm() < SMALLEST {
+        return Err(document
+            .error_at(key, "the axis has no direction")
+            .with_help("write a vector other than zero, such as [0.0, 0.0, 1.0]"));
     }
     Ok(())
 }

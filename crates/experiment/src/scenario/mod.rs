@@ -6,6 +6,7 @@
 
 mod checks;
 mod estimators;
+mod mismatch;
 mod motion;
 mod named;
 mod noise;
@@ -26,6 +27,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use estimators::EstimatorName;
+pub use mismatch::{Mismatch, UnmodelledRotation};
 pub use motion::{
     Anchored, AnchoredSinusoid, BackAndForthStep, Deformation, Direction, Motion, MotionBuildError,
     Rotation, Swing, Translation,
@@ -62,6 +64,9 @@ pub struct Scenario {
     /// What filter and planners believe of that; an empty table believes the object to be at rest.
     /// Default: `motion`.
     pub known_motion: Option<Motion>,
+    /// Where the truth departs from all that filter and planners are told. Default: nowhere.
+    #[serde(default)]
+    pub mismatch: Mismatch,
     /// The noise of the world.
     pub noise: Noise,
     /// Where the filter assumes another noise. Default: `noise`.
@@ -188,22 +193,26 @@ impl Scenario {
         deadline.map(|ms| *ms)
     }
 
-    /// How the object whose features rest at `rest` (world frame, cm) truly moves.
+    /// How the object whose features rest at `rest` (world frame, cm) truly moves: `[motion]`, from
+    /// which `[mismatch]` departs.
     ///
     /// # Errors
     /// When fewer features were found than the anchor's number needs.
     pub fn true_motion(&self, rest: &[Point3<f64>]) -> Result<ObjectMotion, InputError> {
-        self.built("motion", &self.motion, rest)
+        let motion = self.built("motion", &self.motion, rest)?;
+        self.mismatch
+            .departed(motion, rest)
+            .map_err(|error| self.error_at("mismatch", error))
     }
 
-    /// How the filter and the planners believe it to move: `[known_motion]`, or else the truth.
+    /// How the filter and the planners believe it to move: `[known_motion]`, or else `[motion]`.
     ///
     /// # Errors
     /// As [`Scenario::true_motion`].
     pub fn believed_motion(&self, rest: &[Point3<f64>]) -> Result<ObjectMotion, InputError> {
         match &self.known_motion {
             Some(known) => self.built("known_motion", known, rest),
-            None => self.true_motion(rest),
+            None => self.built("motion", &self.motion, rest),
         }
     }
 

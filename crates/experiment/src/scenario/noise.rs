@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::EstimatorName;
-use super::values::{AngleSigma, NonNegative, Positive, Probability, Truncation};
+use super::values::{AngleSigma, GateProbability, NonNegative, Positive, Truncation};
 
 /// The noise of the world: Gaussian, independent in each component. 0 is no noise.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
@@ -67,7 +67,7 @@ pub struct Filter {
     pub estimator: EstimatorName,
     /// The part of good feature measurements that pass the filter's χ² gate; one that is farther from what is
     /// expected is not used. 0.999 is usual. Default: no gate, all are used.
-    pub gate_probability: Option<Probability>,
+    pub gate_probability: Option<GateProbability>,
 }
 
 /// Which pairs of features structure measurements connect.

@@ -12,8 +12,8 @@ pub use count::{Count, FeatureCount, FeatureNumber, Many, Seed, Steps};
 pub use list::{LONGEST_LIST, List, Triple, Vec3};
 pub use name::Name;
 pub use real::{
-    AngleSigma, Finite, Fraction, LARGEST, NonNegative, Positive, Probability, SMALLEST, Spacing,
-    Truncation,
+    AngleSigma, ClockFactor, Finite, Fraction, GateProbability, LARGEST, NonNegative, Positive,
+    Probability, SMALLEST, Spacing, Truncation,
 };
 use thiserror::Error;
 

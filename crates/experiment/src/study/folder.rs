@@ -29,7 +29,7 @@ pub(super) struct StudyFolder {
     /// Checksum of the plan, to tell its records from those of another study.
     study: String,
     /// Held until this is dropped. The system gives it back too when the process dies.
-    _lock: File,
+    lock: File,
 }
 
 impl StudyFolder {
@@ -39,7 +39,7 @@ impl StudyFolder {
         plan: StudyPlan<'a>,
     ) -> Result<(Self, Vec<StudyUnit<'a>>), ExperimentError> {
         prepare_folder(folder)?;
-        let mut lock = locked(folder)?;
+        let lock = locked(folder)?;
         let records = folder.join(RECORDS);
         let json = plan.to_json();
         let text = format!("{json:#}\n");
@@ -53,16 +53,20 @@ impl StudyFolder {
         if !is_there {
             AtomicFile::with_content(&folder.join(PLAN), text.as_bytes())?.commit()?;
         }
-        // For whoever comes second, to read; the lock holds without it.
-        let _ = lock
-            .set_len(0)
-            .and_then(|()| write!(lock, "{}", std::process::id()));
         let folder = Self {
             records,
             study: checksum(text.as_bytes()),
-            _lock: lock,
+            lock,
         };
         Ok((folder, plan.units))
+    }
+
+    /// Says in the lock's file who is at work, for whoever comes second to read; the lock holds without it.
+    pub(super) fn sign(&mut self) {
+        let _ = self
+            .lock
+            .set_len(0)
+            .and_then(|()| write!(self.lock, "{}", std::process::id()));
     }
 
     /// The file of a unit's record.

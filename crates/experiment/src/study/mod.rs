@@ -75,12 +75,13 @@ impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
     /// another study, and where a record is damaged or foreign; nothing is changed then.
     /// [`ExperimentError::Output`] where it cannot be written to.
     pub fn open(folder: &Path, plan: StudyPlan<'a>) -> Result<Self, ExperimentError> {
-        let (folder, units) = StudyFolder::open(folder, plan)?;
+        let (mut folder, units) = StudyFolder::open(folder, plan)?;
         let records: Vec<_> = units
             .par_iter()
             .map(|unit| folder.record(unit).read())
             .collect();
         let records = records.into_iter().collect::<Result<_, _>>()?;
+        folder.sign();
         Ok(Self {
             folder,
             units,

@@ -74,6 +74,7 @@ pub(super) fn markdown(results: &SweepResults<'_>) -> String {
          come from sign-flip randomisation tests, by Holm's method corrected for the pairs of planners at a point.\n",
         results.plan.runs, sweep.scenario.name, sweep.first_seed,
     );
+    text += &too_few_runs(results);
     for shown in &SHOWN {
         let Some(metric) = results.metrics.iter().position(|name| name == shown.metric) else {
             continue;
@@ -83,6 +84,25 @@ pub(super) fn markdown(results: &SweepResults<'_>) -> String {
         text += &differences(results, metric, shown.digits);
     }
     text
+}
+
+/// A remark where no difference can reach the level, however clear it is.
+fn too_few_runs(results: &SweepResults<'_>) -> String {
+    let planners = results.plan.sweep.planners.len();
+    let pairs = planners * (planners - 1) / 2;
+    let smallest = |runs: usize| {
+        let halvings = i32::try_from(runs - 1).unwrap_or(i32::MAX);
+        pairs as f64 * 0.5_f64.powi(halvings)
+    };
+    if pairs == 0 || smallest(results.plan.runs) <= LEVEL {
+        return String::new();
+    }
+    let enough = (1..).find(|runs| smallest(*runs) <= LEVEL).unwrap_or(1);
+    format!(
+        "{} runs are too few for any difference to have a corrected p-value of at most {LEVEL}; it takes \
+         {enough}.\n\n",
+        results.plan.runs
+    )
 }
 
 /// A row for each point, a column for each planner.
@@ -148,18 +168,20 @@ fn differences(results: &SweepResults<'_>, metric: usize, digits: usize) -> Stri
 fn started(results: &SweepResults<'_>, heads: impl IntoIterator<Item = String>) -> Table {
     let mut table = Table::new();
     let mut of_point = vec!["point".to_owned()];
-    of_point.extend(
-        results
-            .plan
-            .sweep
-            .varied
-            .iter()
-            .map(|key| format!("`{key}`")),
-    );
+    of_point.extend(heads_of(&results.plan.sweep.varied));
     table
         .load_style(presets::ASCII_MARKDOWN)
         .set_header(of_point.into_iter().chain(heads));
     table
+}
+
+/// The last parts of the keys; a whole key where another ends alike.
+fn heads_of(keys: &[String]) -> impl Iterator<Item = String> {
+    let last = |key: &str| key.rsplit('.').next().unwrap_or(key).to_owned();
+    keys.iter().map(move |key| {
+        let alike = keys.iter().filter(|other| last(other) == last(key)).count();
+        format!("`{}`", if alike > 1 { key.clone() } else { last(key) })
+    })
 }
 
 fn aligned(mut table: Table, results: &SweepResults<'_>) -> Table {

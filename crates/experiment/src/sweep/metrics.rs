@@ -16,5 +16,10 @@ pub(super) fn metrics(summary: &RunSummary) -> Map<String, Value> {
     keys.retain(|key, value| {
         !NO_RESULTS.contains(&key.as_str()) && (value.is_number() || value.is_null())
     });
+    // Points at which nothing can go wrong have the same columns as those at which much does.
+    let faults = serde_json::to_value(summary.faults.unwrap_or_default());
+    if let Ok(Value::Object(faults)) = faults {
+        keys.extend(faults);
+    }
     keys
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::Sweep;
+use super::{Sweep, SweepPoint};
 use crate::ExperimentError;
 use crate::config::checked_runs;
 use crate::diagnostics::InputError;
@@ -55,14 +55,9 @@ impl SweepPlan {
     /// # Errors
     /// An object that cannot be built, or a robot that starts inside it.
     pub(crate) fn new(sweep: Sweep, runs: Option<usize>) -> Result<Self, InputError> {
-        let built: Vec<_> = sweep
-            .points
-            .par_iter()
-            .map(|point| Setup::new(&point.scenario))
-            .collect();
         Ok(Self {
             runs: runs.unwrap_or(sweep.runs),
-            setups: built.into_iter().collect::<Result<_, _>>()?,
+            setups: setups(&sweep.points)?,
             sweep,
         })
     }
@@ -71,6 +66,12 @@ impl SweepPlan {
     #[must_use]
     pub const fn sweep(&self) -> &Sweep {
         &self.sweep
+    }
+
+    /// The setups of the points, in their order.
+    #[must_use]
+    pub fn setups(&self) -> &[Setup] {
+        &self.setups
     }
 
     /// How many runs there are in all.
@@ -162,6 +163,32 @@ impl SweepPlan {
             .into_iter()
             .collect()
     }
+}
+
+/// The setup of every point. An object that several have is built once: a phantom takes as long as some runs.
+fn setups(points: &[SweepPoint]) -> Result<Vec<Setup>, InputError> {
+    let mut first_with: Vec<&SweepPoint> = Vec::new();
+    let object_of: Vec<usize> = points
+        .iter()
+        .map(|point| {
+            let same = |first: &&SweepPoint| first.scenario.object == point.scenario.object;
+            first_with.iter().position(same).unwrap_or_else(|| {
+                first_with.push(point);
+                first_with.len() - 1
+            })
+        })
+        .collect();
+    let built: Vec<_> = first_with
+        .par_iter()
+        .map(|point| Setup::new(&point.scenario))
+        .collect();
+    let built: Vec<Setup> = built.into_iter().collect::<Result<_, _>>()?;
+    let varied: Vec<_> = points
+        .par_iter()
+        .zip(&object_of)
+        .map(|(point, &object)| built[object].varied(&point.scenario))
+        .collect();
+    varied.into_iter().collect()
 }
 
 /// Each text once, in order.

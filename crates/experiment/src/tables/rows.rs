@@ -42,7 +42,10 @@ impl ExperimentTables {
     #[must_use]
     pub fn further_table(&self) -> ResultTable {
         type Ours = fn(&RunSummary) -> Option<f64>;
-        let lines: [(&str, usize, Ours); 9] = [
+        let lines: [(&str, usize, Ours); 10] = [
+            ("Drift floor of the position error, mean (cm)", 3, |r| {
+                Some(r.drift_floor_mean)
+            }),
             ("Object-relative pose error, mean (cm, rad)", 3, |r| {
                 Some(r.relative_pose_error_mean)
             }),

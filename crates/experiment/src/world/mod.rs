@@ -1,9 +1,11 @@
 //! The simulated world: the only place that knows the truth and draws random numbers.
 
+mod faults;
 mod noise;
 mod streams;
 mod truth;
 
+pub use faults::{FaultCounts, Faults};
 pub use noise::{DeformationNoise, WorldNoise};
 pub use streams::{Stream, stream};
 pub use truth::{SimulatedMeasurements, World, WorldModel};

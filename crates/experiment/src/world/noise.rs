@@ -1,5 +1,7 @@
 //! The noise of the true world.
 
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
+
 use nalgebra::Vector3;
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -45,6 +47,15 @@ impl WorldNoise {
                 return x;
             }
         }
+    }
+
+    /// The variance of such a number: 1, or less where it is truncated.
+    #[must_use]
+    pub fn variance_of_standard(&self) -> f64 {
+        self.truncate_at_sigmas.map_or(1.0, |limit| {
+            let density = (-limit * limit / 2.0).exp() / TAU.sqrt();
+            1.0 - 2.0 * limit * density / libm::erf(limit * FRAC_1_SQRT_2)
+        })
     }
 
     /// Three of them.

@@ -15,6 +15,8 @@ pub enum Stream {
     Sensor = 2,
     /// The draws of the planners.
     Planner = 3,
+    /// Outliers, missed detections and dropped structure measurements.
+    Faults = 4,
 }
 
 /// The generator of one purpose at one seed.
@@ -38,6 +40,7 @@ mod tests {
             Stream::Deformation,
             Stream::Sensor,
             Stream::Planner,
+            Stream::Faults,
         ];
         let first = |seed, purpose| stream(seed, purpose).next_u64();
         let mut draws: Vec<u64> = purposes.iter().map(|&p| first(1, p)).collect();
@@ -45,6 +48,6 @@ mod tests {
         assert_eq!(first(1, Stream::Sensor), draws[2]);
         draws.sort_unstable();
         draws.dedup();
-        assert_eq!(draws.len(), 5);
+        assert_eq!(draws.len(), 6);
     }
 }

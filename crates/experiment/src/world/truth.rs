@@ -1,11 +1,15 @@
 //! The true robot and the true object.
 
+#[cfg(test)]
+mod tests;
+
 use adslam_deformation::ObjectMotion;
 use adslam_models::{Control, FeatureId, Pose, feature_measurement, move_pose};
 use nalgebra::{Point3, Vector3, Vector6};
 use rand_chacha::ChaCha12Rng;
 
-use super::{DeformationNoise, Stream, WorldNoise, stream};
+use super::faults::StepFaults;
+use super::{DeformationNoise, FaultCounts, Faults, Stream, WorldNoise, stream};
 
 /// What is true before any noise is drawn.
 #[derive(Clone, Debug)]
@@ -18,15 +22,20 @@ pub struct WorldModel {
     pub motion: ObjectMotion,
     /// How far from the plan everything is.
     pub noise: WorldNoise,
+    /// What goes wrong with measurements beside that.
+    pub faults: Faults,
 }
 
 /// What the robot measures at one step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulatedMeasurements {
-    /// The features seen and their measurements, cm, body frame.
+    /// The features measured and their measurements, cm, body frame.
     pub features: Vec<(FeatureId, Vector3<f64>)>,
     /// For each feature i the sum over all j of the measured p_i − p_j, cm: as good as all pairs.
-    pub structure_sums: Vec<Vector3<f64>>,
+    /// None where they did not arrive.
+    pub structure_sums: Option<Vec<Vector3<f64>>>,
+    /// What went wrong.
+    pub faults: FaultCounts,
 }
 
 /// The truth of one run, moving from step to step.
@@ -41,6 +50,9 @@ pub struct World<'a> {
     motion_stream: ChaCha12Rng,
     deformation_stream: ChaCha12Rng,
     sensor_stream: ChaCha12Rng,
+    fault_stream: ChaCha12Rng,
+    /// What goes wrong with the measurements of the present step.
+    faults: StepFaults,
 }
 
 impl<'a> World<'a> {
@@ -56,6 +68,8 @@ impl<'a> World<'a> {
             motion_stream: stream(seed, Stream::Motion),
             deformation_stream: stream(seed, Stream::Deformation),
             sensor_stream: stream(seed, Stream::Sensor),
+            fault_stream: stream(seed, Stream::Faults),
+            faults: StepFaults::default(),
         };
         world.show_features();
         world
@@ -109,6 +123,8 @@ impl<'a> World<'a> {
         }
         self.step += 1;
         self.show_features();
+        let faults = &self.model.faults;
+        self.faults = faults.draw(self.features.len(), &mut self.fault_stream);
     }
 
     /// p = b + r_d D(n) + w_d. Where the noise accumulates it moves the base as well; the start
@@ -136,9 +152,10 @@ impl<'a> World<'a> {
         self.features = shown.collect();
     }
 
-    /// Measures the visible features and the structure. Noise is drawn for every feature, seen or
-    /// not, so that what one planner sees does not change what another one meets.
-    pub fn measure(&mut self, visible: &[FeatureId]) -> SimulatedMeasurements {
+    /// Measures the features in sight and the structure, as far as faults let it. Noise and faults are
+    /// drawn for every feature, seen or not, so that what one planner sees does not change what
+    /// another one meets.
+    pub fn measure(&mut self, in_sight: &[FeatureId]) -> SimulatedMeasurements {
         let noise = &self.model.noise;
         let stream = &mut self.sensor_stream;
         let errors: Vec<Vector3<f64>> = self
@@ -151,21 +168,33 @@ impl<'a> World<'a> {
             .iter()
             .map(|_| noise.standard_vector(stream))
             .collect();
-        let features = visible
-            .iter()
-            .map(|&id| {
-                let z = feature_measurement(&self.pose, &self.features[id.0]);
-                (id, z + errors[id.0] * noise.feature_measurement_sigma)
-            })
-            .collect();
-        let structure_sums = summed_structure(
-            &self.features,
-            &of_structure,
-            noise.structure_measurement_sigma,
-        );
+        let mut faults = FaultCounts {
+            dropped_structures: usize::from(self.faults.drops_structure),
+            ..FaultCounts::default()
+        };
+        let mut features = Vec::with_capacity(in_sight.len());
+        for &id in in_sight {
+            let fault = self.faults.of_feature(id.0);
+            if fault.is_missed {
+                faults.missed_detections += 1;
+                continue;
+            }
+            let mut z = feature_measurement(&self.pose, &self.features[id.0])
+                + errors[id.0] * noise.feature_measurement_sigma;
+            if let Some(gross) = fault.outlier {
+                faults.outliers += 1;
+                z += gross;
+            }
+            features.push((id, z));
+        }
+        let structure_sums = (!self.faults.drops_structure).then(|| {
+            let sigma = noise.structure_measurement_sigma;
+            summed_structure(&self.features, &of_structure, sigma)
+        });
         SimulatedMeasurements {
             features,
             structure_sums,
+            faults,
         }
     }
 }
@@ -186,136 +215,4 @@ fn summed_structure(
         .zip(xi)
         .map(|(p, xi)| p.coords * count - total + (xi - mean_xi) * scale)
         .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const NOISE: WorldNoise = WorldNoise {
-        rotation_sigma: 0.02,
-        translation_sigma: 0.03,
-        feature_translation_sigma: 0.03,
-        feature_deformation_sigma: 0.05,
-        feature_measurement_sigma: 0.02,
-        structure_measurement_sigma: 0.5,
-        initial_feature_sigma: 0.02,
-        deformation: DeformationNoise::Fresh,
-        truncate_at_sigmas: None,
-    };
-
-    fn model(noise: WorldNoise) -> WorldModel {
-        let rest = (0..5)
-            .map(|i| Point3::new(f64::from(i), 1.0, f64::from(i * i)))
-            .collect();
-        WorldModel {
-            start: Pose::default(),
-            rest,
-            motion: ObjectMotion::default(),
-            noise,
-        }
-    }
-
-    #[test]
-    fn noise_does_not_depend_on_what_is_seen_or_done() {
-        let model = model(NOISE);
-        let (mut a, mut b) = (World::new(&model, 7), World::new(&model, 7));
-        let turn = Control {
-            rotation: Vector3::z(),
-            ..Control::default()
-        };
-        for _ in 0..3 {
-            a.advance(&Control::default());
-            b.advance(&turn);
-            let all: Vec<FeatureId> = (0..5).map(FeatureId).collect();
-            assert_eq!(
-                a.measure(&[]).structure_sums,
-                b.measure(&all).structure_sums
-            );
-        }
-        assert_eq!(a.features(), b.features());
-        assert_ne!(
-            World::new(&model, 8).features(),
-            World::new(&model, 7).features()
-        );
-    }
-
-    /// Variance over many runs of one coordinate after some steps: σ_t² per step, and σ_d² once
-    /// (fresh) or per step (accumulating).
-    #[test]
-    fn deformation_noise_is_fresh_or_accumulates() {
-        for (deformation, expected) in [
-            (
-                DeformationNoise::Fresh,
-                16.0 * 0.03f64.powi(2) + 0.05f64.powi(2),
-            ),
-            (
-                DeformationNoise::Accumulating,
-                16.0 * (0.03f64.powi(2) + 0.05f64.powi(2)),
-            ),
-        ] {
-            let model = model(WorldNoise {
-                deformation,
-                ..NOISE
-            });
-            let mut squares = 0.0;
-            let runs = 1500;
-            for seed in 0..runs {
-                let mut world = World::new(&model, seed);
-                for _ in 0..16 {
-                    world.advance(&Control::default());
-                }
-                let errors = world
-                    .features()
-                    .iter()
-                    .zip(&model.rest)
-                    .map(|(p, r)| (p - r).x);
-                squares += errors.map(|e| e * e).sum::<f64>() / 5.0;
-            }
-            let variance = squares / runs as f64;
-            // The standard error of a variance from 7500 draws is 1.6 %.
-            assert!(
-                (variance / expected - 1.0).abs() < 0.08,
-                "{variance} is not {expected}"
-            );
-        }
-    }
-
-    /// The sums must have the mean and covariance of summed independent pairs.
-    #[test]
-    fn structure_sums_are_distributed_as_summed_pairs() {
-        let model = model(NOISE);
-        let (count, runs) = (5.0, 4000);
-        let mut world = World::new(&model, 3);
-        let features = world.features().to_vec();
-        let total: Vector3<f64> = features.iter().map(|p| p.coords).sum();
-        let (mut own, mut cross, mut sum) = (0.0, 0.0, 0.0);
-        for _ in 0..runs {
-            let sums = world.measure(&[]).structure_sums;
-            let noise = |i: usize| (sums[i] - (features[i].coords * count - total)).x;
-            own += noise(0) * noise(0);
-            cross += noise(1) * noise(3);
-            sum += (0..5).map(noise).sum::<f64>().abs();
-        }
-        let variance = 0.25;
-        assert!((own / f64::from(runs) / (variance * 4.0) - 1.0).abs() < 0.1);
-        assert!((cross / f64::from(runs) / -variance - 1.0).abs() < 0.3);
-        assert!(
-            sum < 1e-6,
-            "the noise of all pairs cancels in the sum over features"
-        );
-    }
-
-    #[test]
-    fn truncation_cuts_the_tails() {
-        let noise = WorldNoise {
-            truncate_at_sigmas: Some(2.0),
-            ..NOISE
-        };
-        let mut generator = stream(1, Stream::Sensor);
-        let largest = (0..5000)
-            .map(|_| noise.standard(&mut generator).abs())
-            .fold(0.0, f64::max);
-        assert!(largest <= 2.0 && largest > 1.9);
-    }
 }

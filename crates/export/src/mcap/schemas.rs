@@ -66,10 +66,11 @@ impl Schema {
 }
 
 /// The numbers of a step, in the order of the message.
-const METRICS: [&str; 12] = [
+const METRICS: [&str; 13] = [
     "pose_error",
     "orientation_error_rad",
     "position_error_cm",
+    "drift_floor_cm",
     "relative_pose_error",
     "feature_error_mean_cm",
     "feature_error_max_cm",

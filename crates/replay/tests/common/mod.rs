@@ -7,9 +7,20 @@ use adslam_experiment::scenario::{PlannerName, Scenario};
 
 /// A run of a shipped scenario with seed 1, cut to `steps`.
 pub fn history(scenario: &str, planner: PlannerName, steps: usize) -> RunHistory {
+    history_with(scenario, "", planner, steps)
+}
+
+/// The same with further tables in the scenario.
+pub fn history_with(
+    scenario: &str,
+    tables: &str,
+    planner: PlannerName,
+    steps: usize,
+) -> RunHistory {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
-    let scenario =
-        Scenario::load(&folder.join(format!("{scenario}.toml"))).expect("a shipped scenario");
+    let path = folder.join(format!("{scenario}.toml"));
+    let text = std::fs::read_to_string(&path).expect("a shipped scenario") + tables;
+    let scenario = Scenario::parse(&text, &path).expect("a valid scenario");
     let mut setup = Setup::new(&scenario).expect("an object that serves");
     setup.steps = steps;
     let mut recorder = HistoryRecorder::new(&setup, planner, 1);

@@ -21,6 +21,8 @@ export interface Metrics {
   pose_error: number;
   orientation_error_rad: number;
   position_error_cm: number;
+  /** What any estimator's position error has to be, on average; absent in files of version 1. */
+  drift_floor_cm?: number | null;
   relative_pose_error: number;
   feature_error_mean_cm: number;
   pose_nees: number | null;
@@ -37,7 +39,8 @@ export interface Step {
   estimated_features: Triple[];
   feature_covariances: Sextuple[];
   visible: number[];
-  object: { base_cm: Triple; r_d: number[]; amounts: number[] };
+  /** Absent `turn`: the object does not turn as a whole. */
+  object: { base_cm: Triple; turn?: number[]; r_d: number[]; amounts: number[] };
   decision: Decision | null;
   metrics: Metrics;
 }
@@ -83,6 +86,8 @@ export function decisionAt(history: History, index: number): Decision | null {
   return history.steps[index + 1]?.decision ?? null;
 }
 
+const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
+
 /** The vertices of the drawn surface at a step, written one after the other into `out`. */
 export function drawnVertices(history: History, step: Step, out: Float32Array): void {
   if (history.drawn === "features") {
@@ -91,6 +96,7 @@ export function drawnVertices(history: History, step: Step, out: Float32Array): 
   }
   const { rest_cm, modes } = history.drawn.mesh;
   const { base_cm, r_d, amounts } = step.object;
+  const turn = step.object.turn ?? IDENTITY;
   for (let v = 0; v < rest_cm.length; v++) {
     let x = 0;
     let y = 0;
@@ -102,9 +108,13 @@ export function drawnVertices(history: History, step: Step, out: Float32Array): 
       z += amounts[k] * mode[2];
     }
     const rest = rest_cm[v];
-    out[3 * v] = rest[0] + base_cm[0] + r_d[0] * x + r_d[1] * y + r_d[2] * z;
-    out[3 * v + 1] = rest[1] + base_cm[1] + r_d[3] * x + r_d[4] * y + r_d[5] * z;
-    out[3 * v + 2] = rest[2] + base_cm[2] + r_d[6] * x + r_d[7] * y + r_d[8] * z;
+    const px = rest[0] + r_d[0] * x + r_d[1] * y + r_d[2] * z;
+    const py = rest[1] + r_d[3] * x + r_d[4] * y + r_d[5] * z;
+    const pz = rest[2] + r_d[6] * x + r_d[7] * y + r_d[8] * z;
+    for (let i = 0; i < 3; i++) {
+      out[3 * v + i] =
+        base_cm[i] + turn[3 * i] * px + turn[3 * i + 1] * py + turn[3 * i + 2] * pz;
+    }
   }
 }
 

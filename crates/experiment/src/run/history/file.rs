@@ -63,12 +63,14 @@ impl RunHistory {
         if header.format.as_deref() != Some(HISTORY_FORMAT) {
             return Err(about(format!("{shown} is not the history of a run")));
         }
-        if header.version != Some(HISTORY_VERSION) {
+        let is_known = |version: u32| (1..=HISTORY_VERSION).contains(&version);
+        if !header.version.is_some_and(is_known) {
             let version = header
                 .version
                 .map_or("none".to_owned(), |version| version.to_string());
             return Err(about(format!(
-                "{shown} has version {version}; this adslam reads version {HISTORY_VERSION}"
+                "{shown} has version {version}; this adslam reads versions 1 to \
+                 {HISTORY_VERSION}"
             )));
         }
         let history: Self = serde_json::from_str(text).map_err(broken)?;

@@ -89,12 +89,14 @@ impl<'a> HistoryRecorder<'a> {
     /// Where the object is at the step of `view`, noise apart.
     fn object(&self, n: usize) -> ObjectStep {
         let motion = &self.setup.world.motion;
-        let deformation = &motion.deformation;
+        let turn = motion.turn_at(n);
+        let rows = |rotation| ObjectStep::rows(rotation).map(|x| decimals(x, 7));
         ObjectStep {
-            base_cm: vector(&self.base),
-            r_d: ObjectStep::rows(&motion.r_d.at(n)).map(|x| decimals(x, 7)),
-            amounts: (0..deformation.mode_count())
-                .map(|k| decimals(deformation.amount(k, n), 6))
+            base_cm: vector(&(self.base + turn.translation.vector)),
+            turn: motion.turn.is_some().then(|| rows(&turn.rotation)),
+            r_d: rows(&motion.r_d_at(n)),
+            amounts: (0..motion.deformation.mode_count())
+                .map(|k| decimals(motion.amount(k, n), 6))
                 .collect(),
         }
     }
@@ -126,6 +128,7 @@ impl<'a> HistoryRecorder<'a> {
             pose_error: number(m.pose_error),
             orientation_error_rad: number(m.orientation_error),
             position_error_cm: number(m.position_error),
+            drift_floor_cm: Some(number(view.drift_floor)),
             relative_pose_error: number(m.relative_pose_error),
             feature_error_mean_cm: number(errors.iter().sum::<f64>() / errors.len().max(1) as f64),
             feature_error_max_cm: number(errors.iter().copied().fold(0.0, f64::max)),

@@ -1,6 +1,7 @@
 //! What is recorded against the run itself, and files that cannot be used.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
@@ -11,8 +12,14 @@ use crate::run::{Interrupt, Observer, Setup, StepView, simulate};
 use crate::scenario::Scenario;
 
 fn setup(name: &str, steps: usize) -> Setup {
+    setup_with(name, steps, "")
+}
+
+/// A shipped scenario with further tables.
+fn setup_with(name: &str, steps: usize, tables: &str) -> Setup {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../scenarios/{name}.toml"));
-    let mut setup = Setup::new(&Scenario::load(&file).unwrap()).unwrap();
+    let text = std::fs::read_to_string(&file).unwrap() + tables;
+    let mut setup = Setup::new(&Scenario::parse(&text, &file).unwrap()).unwrap();
     setup.steps = steps;
     setup
 }
@@ -89,11 +96,19 @@ fn every_planner_is_recorded_as_it_ran_and_read_back() {
 
 #[test]
 fn the_drawn_mesh_moves_as_the_scenario_says() {
-    for name in ["heart", "rotating"] {
-        let mut setup = setup(name, 9);
+    let departed = "[mismatch]\ndeformation_factor = 1.4\ntime_factor = 1.7\ndelay_steps = 0.3\n\
+        [mismatch.rotation]\naxis = [1, 2, 0.5]\nrate_deg_per_step = 4";
+    for (name, tables) in [
+        ("heart", ""),
+        ("heart", departed),
+        ("rotating", ""),
+        ("rotating", departed),
+    ] {
+        let mut setup = setup_with(name, 9, tables);
         if name == "rotating" {
             // Any mesh but the features' own surface.
-            setup.drawn.vertices.push(Point3::new(0.3, -0.4, 0.5));
+            let drawn = Arc::make_mut(&mut setup.drawn);
+            drawn.vertices.push(Point3::new(0.3, -0.4, 0.5));
         }
         let history = record(&setup, PlannerName::Predetermined);
         let motion = &setup.world.motion;
@@ -110,6 +125,8 @@ fn the_drawn_mesh_moves_as_the_scenario_says() {
             }
             base += motion.translation_step(n);
         }
+        let turns = history.steps.iter().any(|step| step.object.turn.is_some());
+        assert_eq!(turns, !tables.is_empty());
         assert!(history.drawn_vertices(9).is_empty() && history.candidates(9).is_empty());
     }
 }
@@ -134,7 +151,7 @@ fn files_that_cannot_be_used_say_why() {
         reason(&json.to_string())
     };
     use serde_json::json;
-    assert!(changed("/version", json!(2)).contains("version 2"));
+    assert!(changed("/version", json!(3)).contains("version 3; this adslam reads versions 1 to 2"));
     assert!(changed("/planner", json!("psychic")).contains("cannot be read"));
     assert!(changed("/steps", json!([])).contains("no steps"));
     assert!(changed("/steps/1/features", json!([])).contains("step 2: 0 features"));
@@ -148,6 +165,16 @@ fn files_that_cannot_be_used_say_why() {
     let beyond = json!([2, u64::MAX]);
     assert!(changed("/steps/1/decision/scored", beyond).contains("make no list"));
     assert!(changed("/topology/0/0", json!(77)).contains("a face has number 77"));
+    let mut first_version = good.clone();
+    first_version["version"] = json!(1);
+    for step in first_version["steps"].as_array_mut().unwrap() {
+        step["metrics"]
+            .as_object_mut()
+            .unwrap()
+            .remove("drift_floor_cm");
+    }
+    let read = RunHistory::parse(path, &first_version.to_string()).unwrap();
+    assert_eq!(read.steps[1].metrics.drift_floor_cm, None);
     let missing = RunHistory::load(Path::new("/nowhere/at/all")).unwrap_err();
     assert!(missing.message().contains("cannot read"), "{missing}");
 }

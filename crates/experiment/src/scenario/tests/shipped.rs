@@ -128,6 +128,39 @@ fn the_filter_may_believe_in_another_motion() {
 }
 
 #[test]
+fn the_truth_departs_and_the_belief_stays() {
+    let keys = "[mismatch]\ndeformation_factor = 2\ntime_factor = 0.5\ndelay_steps = -1\n\
+        [mismatch.rotation]\naxis = [0, 0, 3]\nrate_deg_per_step = 90\n[noise]";
+    let (departed, plain) = (
+        polygon_with("[noise]", keys).unwrap(),
+        parsed(POLYGON).unwrap(),
+    );
+    let rest = positions(&departed);
+    let believed = departed.believed_motion(&rest).unwrap();
+    let (truth, own) = (
+        departed.true_motion(&rest).unwrap(),
+        plain.true_motion(&rest).unwrap(),
+    );
+    for n in 1..9 {
+        for p in &rest {
+            assert_eq!(believed.feature_motion(p, n), own.feature_motion(p, n));
+        }
+    }
+    // Step 1 shows time 1.5 and with it half of 0.2 cm twice; step 3 shows time 2.5 turned by 180°
+    // about the centroid of the rest positions, which is that of the prism's axis.
+    let [at_1, at_3] = [1, 3].map(|n| rest[1] + truth.offset(&rest[1], n));
+    assert_relative_eq!(at_1, Point3::new(1.5, -1.2, 1.0), epsilon = 1e-12);
+    assert_relative_eq!(at_3, Point3::new(1.5, 1.6, 1.0), epsilon = 1e-12);
+    // Half of the way forth is behind it at time 1.5; at 2 it turns back.
+    let x = |n| truth.translation_step(n).x;
+    assert_relative_eq!(x(1), 0.05, epsilon = 1e-12);
+    assert_relative_eq!(x(2), -0.05, epsilon = 1e-12);
+    let known = polygon_with("[noise]", &format!("[known_motion]\n{keys}")).unwrap();
+    let believed = known.believed_motion(&rest).unwrap();
+    assert_eq!(believed.feature_motion(&rest[1], 2), Vector3::zeros());
+}
+
+#[test]
 fn both_rotations_of_the_third_scenario_turn_about_different_axes() {
     let rotating = parsed(ROTATING).unwrap();
     assert_eq!(
@@ -135,15 +168,15 @@ fn both_rotations_of_the_third_scenario_turn_about_different_axes() {
         DeformationNoise::Accumulating
     );
     let motion = rotating.true_motion(&positions(&rotating)).unwrap();
-    let axis = |rotation: &dyn adslam_deformation::Rotation| rotation.at(2).axis().unwrap();
+    let axis = |rotation: &dyn adslam_deformation::Rotation| rotation.at(2.0).axis().unwrap();
     assert!(axis(&*motion.r_t).dot(&axis(&*motion.r_d)).abs() < 1e-12);
     assert_relative_eq!(
-        motion.r_t.at(2).angle(),
+        motion.r_t.at(2.0).angle(),
         23_f64.to_radians(),
         epsilon = 1e-12
     );
     assert_relative_eq!(
-        motion.r_d.at(2).angle(),
+        motion.r_d.at(2.0).angle(),
         8_f64.to_radians(),
         epsilon = 1e-12
     );

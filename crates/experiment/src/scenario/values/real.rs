@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use std::fmt;
 use std::ops::{Deref, RangeInclusive};
 
+use adslam_deformation::MAX_CLOCK_FACTOR;
 use adslam_surface::{MAX_PHANTOM_SPACING_CM, MIN_PHANTOM_SPACING_CM};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
@@ -137,11 +138,27 @@ number!(
 );
 number!(
     /// A probability that is neither impossible nor certain.
-    Probability,
+    GateProbability,
     SMALLEST..=1.0 - SMALLEST,
     or_zero: false,
     "a number above 0 and below 1, such as 0.999",
     "is not between 0 and 1"
+);
+number!(
+    /// How likely something is: 0 to 1.
+    Probability,
+    SMALLEST..=1.0,
+    or_zero: true,
+    "a probability from 0 to 1, such as 0.05",
+    "is no probability"
+);
+number!(
+    /// How many times as fast a motion runs: 0 to [`MAX_CLOCK_FACTOR`].
+    ClockFactor,
+    SMALLEST..=MAX_CLOCK_FACTOR,
+    or_zero: true,
+    "a number from 0 to 1000, such as 1.1",
+    "is no sensible speed"
 );
 number!(
     /// Where a Gaussian is cut off, in multiples of its sigma: 0.5 to 100. Below that the rest has
@@ -162,36 +179,31 @@ number!(
     "cm is no sensible distance between vertices"
 );
 
-impl Finite {
-    /// A default, whose validity is in plain sight.
-    pub(crate) const fn default_of(value: f64) -> Self {
-        Self(value)
-    }
-
-    /// The number, taken as degrees, in radians.
-    pub fn degrees_in_rad(self) -> f64 {
-        self.0.to_radians()
-    }
+macro_rules! default_of {
+    ($($name:ident),+) => {
+        $(impl $name {
+            /// A default, whose validity is in plain sight.
+            pub(crate) const fn default_of(value: f64) -> Self {
+                Self(value)
+            }
+        })+
+    };
 }
 
-impl NonNegative {
-    /// A default, whose validity is in plain sight.
-    pub(crate) const fn default_of(value: f64) -> Self {
-        Self(value)
-    }
+default_of!(Finite, NonNegative, Probability, ClockFactor, Spacing);
 
-    /// The number, taken as degrees, in radians.
-    pub fn degrees_in_rad(self) -> f64 {
-        self.0.to_radians()
-    }
+macro_rules! degrees {
+    ($($name:ident),+) => {
+        $(impl $name {
+            /// The number, taken as degrees, in radians.
+            pub fn degrees_in_rad(self) -> f64 {
+                self.0.to_radians()
+            }
+        })+
+    };
 }
 
-impl Spacing {
-    /// A default, whose validity is in plain sight.
-    pub(crate) const fn default_of(value: f64) -> Self {
-        Self(value)
-    }
-}
+degrees!(Finite, NonNegative);
 
 /// Reads integers and floats alike. The value is checked in here, where an error still gets its
 /// place.

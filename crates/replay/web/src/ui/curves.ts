@@ -38,7 +38,8 @@ export const CURVES: Curve[] = [
     fromZero: true,
     value: (step) => step.metrics.pose_error,
     band: threeSigma,
-    note: "band: ±3σ",
+    second: (step) => step.metrics.drift_floor_cm ?? null,
+    note: "band: ±3σ, thin: drift floor",
   },
   {
     id: "relative",

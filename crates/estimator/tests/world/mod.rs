@@ -11,7 +11,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
-use super::filters::Filter;
+use crate::filters::Filter;
 
 /// Which structure measurements a step brings.
 #[derive(Clone, Copy, Debug)]

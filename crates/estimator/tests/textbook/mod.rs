@@ -115,7 +115,7 @@ impl Textbook {
         pairs: &[PairMeasurement],
         noise: &FilterNoise,
     ) -> Updated {
-        let (mut h, o, y) = super::stacked(state, features, pairs, noise);
+        let (mut h, o, y) = crate::common::stacked(state, features, pairs, noise);
         if self != EULER {
             self.set_rotation_columns(&mut h, state, features, pairs);
         }

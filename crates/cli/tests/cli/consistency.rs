@@ -1,0 +1,115 @@
+//! `adslam consistency`
+
+use serde_json::Value;
+
+use super::support::{Place, polygon};
+use super::tables::config;
+
+fn place(runs: usize) -> Place {
+    Place::new(&[
+        ("polygon.toml", &polygon(&[])),
+        ("config.toml", &config(runs, &["predetermined", "local"])),
+    ])
+}
+
+const TABLES: [&str; 6] = [
+    "consistency.md",
+    "consistency.json",
+    "verdicts.csv",
+    "verdicts.jsonl",
+    "steps.csv",
+    "steps.jsonl",
+];
+
+#[test]
+fn every_estimator_and_planner_is_judged() {
+    let place = place(2);
+    let said = place.succeeds("consistency config.toml --out out");
+    for name in ["euler_ekf", "so3_ekf", "right_invariant_ekf"] {
+        let line = format!("polygon, {name}, local: pose NEES ");
+        assert!(said.out.contains(&line), "{said:?}");
+    }
+    let json = place.json("out/consistency.json");
+    let cells = json["cells"].as_array().unwrap();
+    assert_eq!(cells.len(), 3 * 2);
+    for cell in cells {
+        assert_eq!(cell["runs"], 2);
+        let judged = cell["judgements"].as_array().unwrap();
+        let measures: Vec<&str> = judged
+            .iter()
+            .map(|j| j["measure"].as_str().unwrap())
+            .collect();
+        let expected = [
+            "pose_nees",
+            "feature_nees",
+            "joint_nees",
+            "feature_nis",
+            "structure_nis",
+        ];
+        assert_eq!(measures, expected);
+        for judgement in judged {
+            let mean = judgement["mean"].as_f64().unwrap();
+            assert!(mean > 0.1 && mean < 10.0, "{mean}");
+        }
+    }
+    let rows = place.read("out/verdicts.jsonl");
+    let rows: Vec<Value> = rows
+        .lines()
+        .map(|row| serde_json::from_str(row).unwrap())
+        .collect();
+    assert_eq!(rows.len(), cells.len() * 5);
+    for name in ["polygon-pose-nees", "polygon-feature-nis"] {
+        assert!(
+            place
+                .read(&format!("out/figures/{name}.svg"))
+                .contains("Right-invariant EKF")
+        );
+        assert!(place.path(&format!("out/figures/{name}.png")).is_file());
+    }
+}
+
+#[test]
+fn it_goes_on_where_it_was_stopped_and_ends_the_same() {
+    let place = place(2);
+    place.succeeds("consistency config.toml --estimator so3_ekf --out whole");
+    place.succeeds("consistency config.toml --estimator so3_ekf --out out");
+    let record = place
+        .path("out/records")
+        .read_dir()
+        .unwrap()
+        .next()
+        .unwrap()
+        .unwrap();
+    std::fs::remove_file(record.path()).unwrap();
+    let said = place.succeeds("consistency config.toml --estimator so3_ekf --out out");
+    assert!(
+        said.out.contains("3 of 4 runs were there already"),
+        "{said:?}"
+    );
+    for table in TABLES {
+        let [whole, resumed] = ["whole", "out"].map(|out| place.read(&format!("{out}/{table}")));
+        // The one number that differs is how long decisions took, which no table holds.
+        assert_eq!(whole, resumed, "{table}");
+    }
+    let words = ["out", "another", "estimator"];
+    place.refuses(
+        "consistency config.toml --estimator euler_ekf --out out",
+        &words,
+    );
+}
+
+#[test]
+fn what_cannot_be_asked_for() {
+    let place = place(1);
+    let words = ["no estimator is called", "did you mean euler_ekf?"];
+    place.refuses(
+        "consistency config.toml --estimator euler_efk --out out",
+        &words,
+    );
+    let words = ["no experiment called \"heart\"", "polygon"];
+    place.refuses("consistency config.toml --only heart --out out", &words);
+    place.refuses(
+        "consistency config.toml --runs 0 --out out",
+        &["0 runs", "--runs"],
+    );
+}

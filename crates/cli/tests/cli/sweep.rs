@@ -1,0 +1,337 @@
+//! `adslam sweep`
+
+use std::fs;
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+use super::failures::breaking;
+use super::support::{FAILURE, Place, polygon, repository};
+
+/// The tables, which must be the same however a sweep came to its end.
+pub const TABLES: [&str; 7] = [
+    "runs.csv",
+    "runs.jsonl",
+    "table.csv",
+    "table.jsonl",
+    "comparisons.csv",
+    "comparisons.jsonl",
+    "table.md",
+];
+
+/// A sweep of two points and two planners over the polygon in `polygon.toml`.
+pub fn sweep(runs: usize) -> String {
+    format!(
+        "title = \"A few runs\"\nruns = {runs}\nscenario = \"polygon.toml\"\n\
+         planners = [\"predetermined\", \"local\"]\n\n[grid]\n\"sensor.range_cm\" = [2.0, 3.0]\n"
+    )
+}
+
+/// A folder with the polygon and a sweep of this many runs of each planner at each point.
+pub fn place(runs: usize) -> Place {
+    Place::new(&[
+        ("polygon.toml", &polygon(&[])),
+        ("sweep.toml", &sweep(runs)),
+    ])
+}
+
+/// Starts the command without waiting for its end.
+pub fn start(place: &Place, arguments: &str) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_adslam"))
+        .args(arguments.split_whitespace())
+        .current_dir(place.path(""))
+        .env("RAYON_NUM_THREADS", "2")
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+/// The names of the records that are there.
+pub fn records(place: &Place, out: &str) -> Vec<String> {
+    let Ok(entries) = fs::read_dir(place.path(out).join("records")) else {
+        return Vec::new();
+    };
+    let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    names.filter(|name| !name.starts_with('.')).collect()
+}
+
+/// Waits until there are this many records.
+pub fn wait_for_records(place: &Place, out: &str, count: usize) {
+    let start = Instant::now();
+    while records(place, out).len() < count {
+        assert!(
+            start.elapsed() < Duration::from_secs(30),
+            "no {count} records"
+        );
+        sleep(Duration::from_millis(1));
+    }
+}
+
+/// The bytes of all tables.
+pub fn tables(place: &Place, out: &str) -> Vec<Vec<u8>> {
+    let table = |name| fs::read(place.path(out).join(name)).unwrap();
+    TABLES.into_iter().map(table).collect()
+}
+
+/// The command's one object of JSON.
+fn answered(place: &Place, arguments: &str) -> Value {
+    let output = place
+        .command(&format!("{arguments} --json"))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn tables_of_every_point_and_planner() {
+    let place = place(3);
+    let said = place.succeeds("sweep sweep.toml --out new/out");
+    assert!(
+        said.out
+            .starts_with("12 runs at 2 points; wrote runs.csv, "),
+        "{said:?}"
+    );
+    assert_eq!(said.err, "");
+    let runs = place.read("new/out/runs.csv");
+    assert_eq!(runs.lines().count(), 13);
+    let head = "point,label,sensor.range_cm,planner,seed,observed,steps_to_full_coverage,";
+    assert!(runs.starts_with(head), "{runs}");
+    assert!(runs.contains("\n2,,3.0,local,3,"), "{runs}");
+    assert_eq!(place.read("new/out/table.csv").lines().count(), 5);
+    let markdown = place.read("new/out/table.md");
+    for part in [
+        "# A few runs",
+        "3 runs of each planner",
+        "| point | `range_cm` |",
+        "too few",
+    ] {
+        assert!(markdown.contains(part), "no {part:?} in {markdown}");
+    }
+
+    // A run of the same seed elsewhere is the same.
+    place.succeeds("run polygon.toml --planner local --seed 3 --out run");
+    let summary = place.json("run/summary.json");
+    let lines = place.read("new/out/runs.jsonl");
+    let row: Value = serde_json::from_str(lines.lines().last().unwrap()).unwrap();
+    for key in [
+        "seed",
+        "observed",
+        "pose_error_mean",
+        "relative_pose_error_mean",
+        "pose_nees_mean",
+    ] {
+        assert_eq!(row[key], summary[key], "{key}");
+    }
+}
+
+#[test]
+fn a_finished_sweep_only_writes_its_tables_anew() {
+    let place = place(2);
+    let answer = answered(&place, "sweep sweep.toml --out out --runs 3");
+    assert_eq!(
+        (&answer["runs"], &answer["runs_there_already"]),
+        (&json!(12), &json!(0))
+    );
+    assert_eq!(answer["files"].as_array().unwrap().len(), TABLES.len());
+    let before = tables(&place, "out");
+    fs::remove_file(place.path("out/table.md")).unwrap();
+    let said = place.succeeds("sweep sweep.toml --out out --runs 3");
+    assert!(
+        said.out.starts_with("12 of 12 runs were there already"),
+        "{said:?}"
+    );
+    assert_eq!(tables(&place, "out"), before);
+    let answer = answered(&place, "sweep sweep.toml --out out --runs 3");
+    assert_eq!(
+        (&answer["runs_there_already"], &answer["complete"]),
+        (&json!(12), &json!(true))
+    );
+}
+
+#[test]
+fn another_sweep_is_refused_by_what_differs() {
+    let place = place(1);
+    place.succeeds("sweep sweep.toml --out out");
+    let help = "give another folder with --out";
+    let words = ["holds another study: `units` is 4 there and 8 here", help];
+    place.refuses("sweep sweep.toml --out out --runs 2", &words);
+    let text = sweep(1);
+    for (old, new, difference) in [
+        (
+            "3.0]",
+            "4.0]",
+            "`points[1].set.sensor.range_cm` is 3.0 there and 4.0 here",
+        ),
+        (
+            "\"local\"",
+            "\"global\"",
+            "`planners[1]` is \"local\" there and \"global\" here",
+        ),
+        (
+            "[grid]",
+            "first_seed = 2\n[grid]",
+            "`first_seed` is 1 there and 2 here",
+        ),
+    ] {
+        fs::write(place.path("other.toml"), text.replace(old, new)).unwrap();
+        place.refuses("sweep other.toml --out out", &[difference, help]);
+    }
+    // A title is no other study.
+    fs::write(place.path("other.toml"), text.replace("A few", "Some")).unwrap();
+    place.succeeds("sweep other.toml --out out");
+    assert!(place.read("out/table.md").starts_with("# Some runs"));
+}
+
+#[test]
+fn a_damaged_record_is_named_and_done_anew_when_removed() {
+    let place = place(2);
+    place.succeeds("sweep sweep.toml --out out");
+    let before = tables(&place, "out");
+    let record = place.path("out/records/0002-local-seed1.jsonl");
+    let text = fs::read_to_string(&record).unwrap();
+    fs::write(&record, &text[..text.len() / 2]).unwrap();
+    let words = ["out/records/0002-local-seed1.jsonl is damaged", "remove it"];
+    place.refuses("sweep sweep.toml --out out", &words);
+    fs::remove_file(&record).unwrap();
+    let said = place.succeeds("sweep sweep.toml --out out");
+    assert!(
+        said.out.starts_with("7 of 8 runs were there already"),
+        "{said:?}"
+    );
+    assert_eq!(tables(&place, "out"), before);
+}
+
+#[test]
+fn runs_that_fail_are_told_and_tried_again() {
+    let text = sweep(2).replace("polygon.toml", "breaking.toml");
+    let place = Place::new(&[("breaking.toml", &breaking()), ("sweep.toml", &text)]);
+    for _ in 0..2 {
+        let said = place.adslam("sweep sweep.toml --out out");
+        assert_eq!(said.code, Some(FAILURE), "{said:?}");
+        for word in [
+            "0 of 8 runs are kept in out; the same command does the others",
+            "8 of the runs failed",
+            "[0001-local-seed1] polygon, local, seed 1: the planner failed at step 1",
+        ] {
+            assert!(said.err.contains(word), "{said:?}");
+        }
+    }
+    assert!(
+        place
+            .read("out/table.md")
+            .contains("**Incomplete: 8 runs failed.**")
+    );
+    assert!(place.read("out/table.csv").contains("\n1,,2.0,local,0,2"));
+}
+
+/// The first of two processes goes on as if the second had never been.
+#[test]
+fn two_processes_cannot_share_a_folder() {
+    let place = place(50_000);
+    let mut first = start(&place, "sweep sweep.toml --out out");
+    wait_for_records(&place, "out", 3);
+    let said = place.adslam("sweep sweep.toml --out out");
+    assert_eq!(said.code, Some(2), "{said:?}");
+    let process = format!("another adslam (process {}) is at work in out", first.id());
+    for word in [&*process, "wait until it has ended", "--out"] {
+        assert!(said.err.contains(word), "{said:?}");
+    }
+    let there = records(&place, "out").len();
+    wait_for_records(&place, "out", there + 3);
+    assert!(first.try_wait().unwrap().is_none(), "the first has ended");
+    first.kill().unwrap();
+    first.wait().unwrap();
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_keeps_what_is_finished() {
+    let place = place(50_000);
+    let child = start(&place, "sweep sweep.toml --out out");
+    wait_for_records(&place, "out", 10);
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    let kept = records(&place, "out").len();
+    let words = format!("{kept} of 200000 runs are kept in out; the same command does the others");
+    assert!(said.contains(&words), "{said}");
+    assert!(said.contains("interrupted"), "{said}");
+    assert!(!place.path("out/table.md").exists());
+}
+
+/// Limits on the size of files stand for a full disk: first no record fits, and then no table.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_ends_the_work_and_loses_nothing() {
+    let place = place(10);
+    place.succeeds("sweep sweep.toml --out undisturbed");
+    place.succeeds("sweep sweep.toml --out out");
+    for name in records(&place, "out").into_iter().skip(20) {
+        fs::remove_file(place.path("out/records").join(name)).unwrap();
+    }
+    for name in TABLES {
+        fs::remove_file(place.path("out").join(name)).unwrap();
+    }
+    for (blocks, kept) in [(0, 20), (8, 40)] {
+        let binary = env!("CARGO_BIN_EXE_adslam");
+        let script =
+            format!("trap '' XFSZ; ulimit -f {blocks}; exec '{binary}' sweep sweep.toml --out out");
+        let output = Command::new("sh")
+            .args(["-c", &script])
+            .current_dir(place.path(""))
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(FAILURE), "{said}");
+        for word in ["cannot write out/", "disk has room"] {
+            assert!(said.contains(word), "{said}");
+        }
+        assert_eq!(records(&place, "out").len(), kept, "{said}");
+        assert!(
+            TABLES
+                .iter()
+                .all(|name| !place.path("out").join(name).exists())
+        );
+    }
+    let said = place.succeeds("sweep sweep.toml --out out");
+    assert!(
+        said.out.starts_with("40 of 40 runs were there already"),
+        "{said:?}"
+    );
+    assert_eq!(tables(&place, "out"), tables(&place, "undisturbed"));
+}
+
+#[test]
+fn a_wrong_value_in_the_grid_is_shown_there() {
+    let text = sweep(1).replace("[2.0, 3.0]", "[2.0, -3.0]");
+    let place = Place::new(&[("polygon.toml", &polygon(&[])), ("sweep.toml", &text)]);
+    for command in ["check sweep.toml", "sweep sweep.toml --out out"] {
+        place.refuses(
+            command,
+            &[
+                "-3 is not above 0",
+                "sweep.toml:7:",
+                "write a number above 0",
+            ],
+        );
+    }
+    assert!(!place.path("out").exists());
+}
+
+#[test]
+fn the_shipped_sweeps_are_valid() {
+    let place = Place::new(&[]);
+    for entry in fs::read_dir(repository("sweeps")).unwrap() {
+        let path = entry.unwrap().path();
+        let said = place.succeeds(&format!("check {}", path.display()));
+        assert!(said.out.contains(": valid sweep"), "{said:?}");
+    }
+}

@@ -1,0 +1,188 @@
+//! The statistics of the world's noise, and what faults change.
+
+use super::*;
+
+const NOISE: WorldNoise = WorldNoise {
+    rotation_sigma: 0.02,
+    translation_sigma: 0.03,
+    feature_translation_sigma: 0.03,
+    feature_deformation_sigma: 0.05,
+    feature_measurement_sigma: 0.02,
+    structure_measurement_sigma: 0.5,
+    initial_feature_sigma: 0.02,
+    deformation: DeformationNoise::Fresh,
+    truncate_at_sigmas: None,
+};
+
+fn model(noise: WorldNoise) -> WorldModel {
+    let rest = (0..5)
+        .map(|i| Point3::new(f64::from(i), 1.0, f64::from(i * i)))
+        .collect();
+    WorldModel {
+        start: Pose::default(),
+        rest,
+        motion: ObjectMotion::default(),
+        noise,
+        faults: Faults::default(),
+    }
+}
+
+#[test]
+fn noise_does_not_depend_on_what_is_seen_or_done() {
+    let model = model(NOISE);
+    let (mut a, mut b) = (World::new(&model, 7), World::new(&model, 7));
+    let turn = Control {
+        rotation: Vector3::z(),
+        ..Control::default()
+    };
+    for _ in 0..3 {
+        a.advance(&Control::default());
+        b.advance(&turn);
+        let all: Vec<FeatureId> = (0..5).map(FeatureId).collect();
+        assert_eq!(
+            a.measure(&[]).structure_sums,
+            b.measure(&all).structure_sums
+        );
+    }
+    assert_eq!(a.features(), b.features());
+    assert_ne!(
+        World::new(&model, 8).features(),
+        World::new(&model, 7).features()
+    );
+}
+
+/// What is measured is what it would have been, but for the features that are missed, those with
+/// a gross error, and the structure that is dropped.
+#[test]
+fn faults_change_what_they_strike_and_nothing_else() {
+    let faults = Faults {
+        outlier_probability: 0.3,
+        outlier_sigma: 10.0,
+        missed_detection_probability: 0.3,
+        dropped_structure_probability: 0.5,
+    };
+    let sound = model(NOISE);
+    let faulty = WorldModel {
+        faults,
+        ..sound.clone()
+    };
+    let (mut a, mut b) = (World::new(&sound, 7), World::new(&faulty, 7));
+    assert_eq!(a.first_estimate(), b.first_estimate());
+    let all: Vec<FeatureId> = (0..5).map(FeatureId).collect();
+    let mut counts = FaultCounts::default();
+    for _ in 0..40 {
+        a.advance(&Control::default());
+        b.advance(&Control::default());
+        let (expected, found) = (a.measure(&all), b.measure(&all));
+        let exact = found
+            .features
+            .iter()
+            .filter(|z| expected.features.contains(z));
+        assert_eq!(exact.count() + found.faults.outliers, found.features.len());
+        assert_eq!(5 - found.features.len(), found.faults.missed_detections);
+        match found.structure_sums {
+            Some(sums) => assert_eq!(Some(sums), expected.structure_sums),
+            None => assert_eq!(found.faults.dropped_structures, 1),
+        }
+        assert_eq!(expected.faults, FaultCounts::default());
+        counts += found.faults;
+    }
+    let FaultCounts {
+        outliers,
+        missed_detections,
+        dropped_structures,
+    } = counts;
+    assert!((20..70).contains(&outliers), "{outliers}");
+    assert!((35..85).contains(&missed_detections), "{missed_detections}");
+    assert!(
+        (8..32).contains(&dropped_structures),
+        "{dropped_structures}"
+    );
+}
+
+/// Variance over many runs of one coordinate after some steps: σ_t² per step, and σ_d² once
+/// (fresh) or per step (accumulating).
+#[test]
+fn deformation_noise_is_fresh_or_accumulates() {
+    for (deformation, expected) in [
+        (
+            DeformationNoise::Fresh,
+            16.0 * 0.03f64.powi(2) + 0.05f64.powi(2),
+        ),
+        (
+            DeformationNoise::Accumulating,
+            16.0 * (0.03f64.powi(2) + 0.05f64.powi(2)),
+        ),
+    ] {
+        let model = model(WorldNoise {
+            deformation,
+            ..NOISE
+        });
+        let mut squares = 0.0;
+        let runs = 1500;
+        for seed in 0..runs {
+            let mut world = World::new(&model, seed);
+            for _ in 0..16 {
+                world.advance(&Control::default());
+            }
+            let errors = world
+                .features()
+                .iter()
+                .zip(&model.rest)
+                .map(|(p, r)| (p - r).x);
+            squares += errors.map(|e| e * e).sum::<f64>() / 5.0;
+        }
+        let variance = squares / runs as f64;
+        // The standard error of a variance from 7500 draws is 1.6 %.
+        assert!(
+            (variance / expected - 1.0).abs() < 0.08,
+            "{variance} is not {expected}"
+        );
+    }
+}
+
+/// The sums must have the mean and covariance of summed independent pairs.
+#[test]
+fn structure_sums_are_distributed_as_summed_pairs() {
+    let model = model(NOISE);
+    let (count, runs) = (5.0, 4000);
+    let mut world = World::new(&model, 3);
+    let features = world.features().to_vec();
+    let total: Vector3<f64> = features.iter().map(|p| p.coords).sum();
+    let (mut own, mut cross, mut sum) = (0.0, 0.0, 0.0);
+    for _ in 0..runs {
+        let sums = world.measure(&[]).structure_sums.unwrap();
+        let noise = |i: usize| (sums[i] - (features[i].coords * count - total)).x;
+        own += noise(0) * noise(0);
+        cross += noise(1) * noise(3);
+        sum += (0..5).map(noise).sum::<f64>().abs();
+    }
+    let variance = 0.25;
+    assert!((own / f64::from(runs) / (variance * 4.0) - 1.0).abs() < 0.1);
+    assert!((cross / f64::from(runs) / -variance - 1.0).abs() < 0.3);
+    assert!(
+        sum < 1e-6,
+        "the noise of all pairs cancels in the sum over features"
+    );
+}
+
+#[test]
+fn truncation_cuts_the_tails() {
+    for limit in [0.5, 1.0, 2.0, 6.0] {
+        let noise = WorldNoise {
+            truncate_at_sigmas: Some(limit),
+            ..NOISE
+        };
+        let mut generator = stream(1, Stream::Sensor);
+        let draws: Vec<f64> = (0..40_000)
+            .map(|_| noise.standard(&mut generator))
+            .collect();
+        let largest = draws.iter().map(|x| x.abs()).fold(0.0, f64::max);
+        assert!(largest <= limit && largest > 0.6 * limit, "{largest}");
+        let variance = draws.iter().map(|x| x * x).sum::<f64>() / draws.len() as f64;
+        // The relative standard error is that of a Gaussian at most, √(2/40 000) = 0.7 %.
+        let ratio = variance / noise.variance_of_standard();
+        assert!((ratio - 1.0).abs() < 0.022, "{limit}: {ratio}");
+    }
+    assert_eq!(NOISE.variance_of_standard(), 1.0);
+}
