@@ -38,10 +38,11 @@ const BYTES_FOR_A_BYTE: u64 = 1 << 10;
 pub const READERS: [Reader; 9] = [
     // The heart phantom is built, at any spacing that is allowed.
     Reader::new("scenario", scenario, 64 << 20),
-    Reader::new("config", config, 1 << 20),
+    // What is said of an unknown key comes from the schema, a megabyte or two.
+    Reader::new("config", config, 8 << 20),
     // Every point of a sweep is a scenario.
     Reader::new("sweep", sweep, 64 << 20),
-    Reader::new("published", published, 1 << 20),
+    Reader::new("published", published, 8 << 20),
     // A covariance grows with the square of the features, of which eight bytes make one.
     Reader::new("log", log, 128 << 20),
     Reader::new("stl", stl, 1 << 20),

@@ -1,5 +1,9 @@
 //! What no measurement shows: where in the world everything together is, and which way it heads. A filter that
 //! comes to believe that it knows has made the knowledge up.
+#![allow(
+    clippy::unwrap_used,
+    reason = "a helper that fails is a test that fails"
+)]
 
 mod common;
 

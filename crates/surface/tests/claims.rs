@@ -83,13 +83,15 @@ fn a_ply_line() {
 
 #[test]
 fn a_face_with_millions_of_corners() {
-    let face = " 1".repeat(usize::try_from(MAX_MESH_FACES).unwrap() + 3);
-    let text = format!("v 0 0 0\nf{face}\n");
+    const CORNERS: u32 = 2_000_003;
+    assert_eq!(u64::from(CORNERS), MAX_MESH_FACES + 3);
     let limit = "the limit is 2000000";
     // The line twice, and its corners.
+    let face = " 1".repeat(CORNERS as usize);
+    let text = format!("v 0 0 0\nf{face}\n");
     refused(MeshFormat::Obj, text.as_bytes(), limit, 100 * MIB);
-    let corners = text.len() as u32 / 2 + 10;
-    let body = [&[0; 12][..], &corners.to_le_bytes(), &vec![0; 8 << 20]].concat();
+    let corners = vec![0; CORNERS as usize];
+    let body = [&[0; 12][..], &CORNERS.to_le_bytes(), &corners].concat();
     let bytes = ply("binary_little_endian", "1", "1", "uint uchar", &body);
     refused(MeshFormat::Ply, &bytes, limit, 100 * MIB);
 }

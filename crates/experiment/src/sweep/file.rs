@@ -17,6 +17,9 @@ pub const MOST_POINTS: usize = 10_000;
 /// More listed points are better made a grid: each is looked up in the text of the file.
 const MOST_LISTED: usize = 1_000;
 
+/// Points that are read before it is looked whether one of them is wrong.
+const POINTS_AT_A_TIME: usize = 64;
+
 /// A sweep with its scenario read, and overridden and checked at each point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
@@ -138,10 +141,15 @@ impl Sweep {
         refuse_varied_constants(document, &grid)?;
         let places = places(document, &grid, &file.points)?;
         let varied = varied(document, &grid, file.points.len());
-        let points: Vec<Result<SweepPoint, InputError>> = places
-            .into_par_iter()
-            .map(|place| point(document, &scenario, place, &varied))
-            .collect();
+        let mut points = Vec::new();
+        // A mistake of all points is told after the first few.
+        for some in places.chunks(POINTS_AT_A_TIME) {
+            let some: Vec<Result<SweepPoint, InputError>> = some
+                .par_iter()
+                .map(|place| point(document, &scenario, place, &varied))
+                .collect();
+            points.extend(some.into_iter().collect::<Result<Vec<_>, _>>()?);
+        }
         let sweep = Self {
             path: document.path().to_owned(),
             title: file.title,
@@ -150,7 +158,7 @@ impl Sweep {
             planners: file.planners.to_vec(),
             scenario,
             varied,
-            points: points.into_iter().collect::<Result<_, _>>()?,
+            points,
         };
         if sweep.runs_in_all(sweep.runs).is_none() {
             let message = sweep.too_many(sweep.runs);
@@ -275,10 +283,10 @@ fn varied(document: &Document, grid: &[(String, usize)], listed: usize) -> Vec<S
 fn point(
     document: &Document,
     scenario: &Scenario,
-    place: Place,
+    place: &Place,
     varied: &[String],
 ) -> Result<SweepPoint, InputError> {
-    let layers = vec![Layer::of_values("set"), place.layer];
+    let layers = vec![Layer::of_values("set"), place.layer.clone()];
     let scenario = scenario.overridden(document, layers)?;
     let keys = scenario.keys();
     let overrides = scenario.document().overrides().into_iter();
@@ -286,7 +294,7 @@ fn point(
         .filter_map(|(_, key)| json_at(&keys, &key).cloned().map(|value| (key, value)))
         .collect();
     Ok(SweepPoint {
-        label: place.label,
+        label: place.label.clone(),
         values: varied
             .iter()
             .map(|key| json_at(&keys, key).cloned())
