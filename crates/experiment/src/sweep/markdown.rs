@@ -75,6 +75,7 @@ pub(super) fn markdown(results: &SweepResults<'_>) -> String {
         results.plan.runs, sweep.scenario.name, sweep.first_seed,
     );
     text += &too_few_runs(results);
+    text += &legend(results);
     for shown in &SHOWN {
         let Some(metric) = results.metrics.iter().position(|name| name == shown.metric) else {
             continue;
@@ -103,6 +104,41 @@ fn too_few_runs(results: &SweepResults<'_>) -> String {
          {enough}.\n\n",
         results.plan.runs
     )
+}
+
+/// What each point sets, where all have labels: columns for keys that each few points set would be mostly empty.
+fn legend(results: &SweepResults<'_>) -> String {
+    if !points_are_told_by_labels(results) {
+        return String::new();
+    }
+    let mut text = String::new();
+    for (number, point) in (1..).zip(&results.plan.sweep.points) {
+        let label = point.label.as_deref().unwrap_or_default();
+        let set = results.plan.sweep.varied.iter().filter_map(|key| {
+            let value = point.overrides.get(key)?;
+            Some(format!("`{key}` = {value}"))
+        });
+        let set: Vec<String> = set.collect();
+        let set = match set.as_slice() {
+            [] => "as the scenario".to_owned(),
+            some => some.join(", "),
+        };
+        let _ = writeln!(text, "{number}. {label}: {set}");
+    }
+    text + "\n"
+}
+
+fn points_are_told_by_labels(results: &SweepResults<'_>) -> bool {
+    let points = &results.plan.sweep.points;
+    points.iter().all(|point| point.label.is_some())
+}
+
+/// The keys that have a column.
+fn keys_shown<'a>(results: &'a SweepResults<'_>) -> &'a [String] {
+    if points_are_told_by_labels(results) {
+        return &[];
+    }
+    &results.plan.sweep.varied
 }
 
 /// A row for each point, a column for each planner.
@@ -168,7 +204,7 @@ fn differences(results: &SweepResults<'_>, metric: usize, digits: usize) -> Stri
 fn started(results: &SweepResults<'_>, heads: impl IntoIterator<Item = String>) -> Table {
     let mut table = Table::new();
     let mut of_point = vec!["point".to_owned()];
-    of_point.extend(heads_of(&results.plan.sweep.varied));
+    of_point.extend(heads_of(keys_shown(results)));
     table
         .load_style(presets::ASCII_MARKDOWN)
         .set_header(of_point.into_iter().chain(heads));
@@ -185,7 +221,7 @@ fn heads_of(keys: &[String]) -> impl Iterator<Item = String> {
 }
 
 fn aligned(mut table: Table, results: &SweepResults<'_>) -> Table {
-    let of_point = 1 + results.plan.sweep.varied.len();
+    let of_point = 1 + keys_shown(results).len();
     for column in table.column_iter_mut().skip(of_point) {
         column.set_cell_alignment(CellAlignment::Right);
     }
@@ -198,7 +234,8 @@ fn point_cells(results: &SweepResults<'_>, index: usize) -> Vec<String> {
     let mut cells = vec![label.map_or((index + 1).to_string(), |label| {
         format!("{} {label}", index + 1)
     })];
-    cells.extend(point.values.iter().map(|value| match value {
+    let values = point.values.iter().take(keys_shown(results).len());
+    cells.extend(values.map(|value| match value {
         None => "–".to_owned(),
         Some(Value::String(text)) => text.clone(),
         Some(other) => other.to_string().replace('|', r"\|"),

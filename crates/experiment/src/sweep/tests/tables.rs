@@ -143,3 +143,25 @@ fn few_runs_are_remarked_on() {
     assert!(markdown.contains("5 runs are too few"), "{markdown}");
     assert!(markdown.contains("it takes 6."), "{markdown}");
 }
+
+#[test]
+fn points_that_all_have_labels_are_told_by_them() {
+    let place = Folder::with(
+        "[[points]]\nlabel = \"as-is\"\n[[points]]\nlabel = \"short\"\nset = { steps = 6 }",
+    );
+    let plan = SweepPlan::load(&place.path("sweep.toml"), Some(1)).unwrap();
+    let records: Vec<Option<SweepRecord>> = (0..4).map(|_| Some(record(1, 0.0))).collect();
+    let folder = tempfile::tempdir().unwrap();
+    SweepResults::new(&plan, &records)
+        .write(folder.path())
+        .unwrap();
+    let text = fs::read_to_string(folder.path().join("table.md")).unwrap();
+    assert!(
+        text.contains("1. as-is: as the scenario\n2. short: `steps` = 6\n"),
+        "{text}"
+    );
+    assert!(
+        !text.contains("| `steps` "),
+        "the key has no column: {text}"
+    );
+}
