@@ -4,8 +4,9 @@ use serde_json::{Map, Value};
 
 use crate::metrics::RunSummary;
 
-/// The keys of a summary that are no result: the seed, and times, which differ from run to run.
-const NO_RESULTS: [&str; 2] = ["seed", "decision_ms"];
+/// The keys of a summary that are no numbers of their own: the seed; times, which differ from run to run; and the
+/// table of faults.
+const NO_METRICS: [&str; 3] = ["seed", "decision_ms", "faults"];
 
 /// The metrics of a run by the names that they have in summary.json, in the same order: numbers, or null where a
 /// run has none.
@@ -14,7 +15,7 @@ pub(super) fn metrics(summary: &RunSummary) -> Map<String, Value> {
         return Map::new();
     };
     keys.retain(|key, value| {
-        !NO_RESULTS.contains(&key.as_str()) && (value.is_number() || value.is_null())
+        !NO_METRICS.contains(&key.as_str()) && (value.is_number() || value.is_null())
     });
     // Points at which nothing can go wrong have the same columns as those at which much does.
     let faults = serde_json::to_value(summary.faults.unwrap_or_default());

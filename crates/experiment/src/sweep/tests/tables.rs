@@ -74,7 +74,10 @@ fn the_tables_say_what_the_records_do() {
         (&runs[16]["point"], &runs[16]["steps"]),
         (&json!(2), &json!(6))
     );
-    assert!(runs[0].get("decision_ms").is_none(), "{}", runs[0]);
+    for name in ["decision_ms", "faults"] {
+        assert!(runs[0].get(name).is_none(), "{}", runs[0]);
+    }
+    assert_eq!(runs[0]["outliers"], 0);
     assert_eq!(runs[0]["steps_to_full_coverage"], Value::Null);
 
     let table = lines(&folder, "table.jsonl");
