@@ -6,6 +6,8 @@
 //! are the same computation. Two things are left, and they are what an [`ErrorState`] is: where a
 //! correction leads, which is not linear, and that P_τ, not P, stays the same when the estimate then
 //! moves from χ̂ to χ̂⁺: P ← D P Dᵀ with D = T(χ̂⁺)⁻¹ T(χ̂).
+//!
+//! That is for what the robot's sensor saw. Structure measurements are linear in δ, and correct in δ.
 
 mod euler;
 mod right_invariant;
