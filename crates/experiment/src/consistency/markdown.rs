@@ -19,7 +19,8 @@ pub(super) fn markdown(results: &ConsistencyResults) -> String {
         "{} runs of each cell, seeds {} to {last_seed}. Mean over steps and runs, divided by the degrees of \
          freedom, so that 1 is consistent; in brackets the part of the steps at which the mean over the runs \
          lies within the {:.0} % interval of χ². **Bold**: the mean over the steps lies outside, with ▲ where \
-         the filter is over-confident and ▼ where it is cautious. Errors are means over steps and runs (rad and \
+         the filter is over-confident and ▼ where it is cautious. Features outside: those whose own mean NEES lies \
+         outside the interval of the features'. Errors are means over steps and runs (rad and \
          cm together, the drift floor in cm).\n",
         results.runs,
         results.first_seed,
@@ -47,6 +48,7 @@ fn table(cells: &[&ConsistencyCell]) -> Table {
             });
         format!("{}{interval}", measure.title())
     }));
+    head.push("Features outside".to_owned());
     head.extend(["Pose error", "Drift floor", "Object-relative"].map(str::to_owned));
     table.set_header(head);
     for cell in cells {
@@ -56,6 +58,8 @@ fn table(cells: &[&ConsistencyCell]) -> Table {
         ];
         let number = |text: String| Cell::new(text).set_alignment(CellAlignment::Right);
         row.extend(Measure::ALL.map(|measure| number(shown(cell.judgement(measure)))));
+        let (outside, all) = (cell.features_outside(), cell.nees_of_features.len());
+        row.push(number(format!("{outside} of {all}")));
         for error in [cell.pose_error, cell.drift_floor, cell.relative_pose_error] {
             row.push(number(format!("{error:.3}")));
         }

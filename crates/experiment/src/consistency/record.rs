@@ -19,6 +19,8 @@ pub struct ConsistencyRecord {
     pub pose_nees: Vec<Option<f64>>,
     /// Mean NEES of the features.
     pub feature_nees: Vec<Option<f64>>,
+    /// NEES of each feature, summed over the steps, and how many steps that are.
+    pub nees_of_features: Vec<(f64, usize)>,
     /// NEES of the state over n.
     pub joint_nees_per_dof: Vec<Option<f64>>,
     /// NIS of the feature measurements, and how many numbers were measured.
@@ -34,7 +36,14 @@ impl Observer for ConsistencyRecord {
         let update = view.update.copied().unwrap_or_default();
         self.dimension = view.belief.state.dim();
         self.pose_nees.push(metrics.pose_nees);
-        self.feature_nees.push(metrics.feature_nees);
+        self.feature_nees.push(metrics.feature_nees_mean());
+        self.nees_of_features
+            .resize(metrics.feature_nees.len(), (0.0, 0));
+        for (sum, nees) in self.nees_of_features.iter_mut().zip(&metrics.feature_nees) {
+            if let Some(nees) = nees {
+                *sum = (sum.0 + nees, sum.1 + 1);
+            }
+        }
         self.joint_nees_per_dof.push(metrics.joint_nees_per_dof);
         self.feature_nis.push(numbers(update.features));
         self.structure_nis.push(numbers(update.structure));

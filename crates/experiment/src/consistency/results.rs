@@ -45,6 +45,8 @@ pub struct ConsistencyCell {
     pub relative_pose_error: f64,
     /// Feature measurements that the gate kept out, in all runs.
     pub rejected_measurements: usize,
+    /// NEES of each feature, mean over steps and runs, over its 3 degrees of freedom.
+    pub nees_of_features: Vec<f64>,
     /// What each measure says, of those that were taken.
     pub judgements: Vec<Judgement>,
 }
@@ -55,6 +57,45 @@ fn as_str<S: serde::Serializer>(planner: &PlannerName, to: S) -> Result<S::Ok, S
 }
 
 impl ConsistencyCell {
+    /// Of the runs that were finished.
+    #[must_use]
+    pub fn of(
+        label: &str,
+        estimator: EstimatorName,
+        planner: PlannerName,
+        runs: &[&ConsistencyRecord],
+    ) -> Self {
+        let summaries = runs.iter().filter_map(|record| record.summary.as_ref());
+        let mean = |value: fn(&RunSummary) -> f64| {
+            summaries.clone().map(value).sum::<f64>() / runs.len() as f64
+        };
+        Self {
+            label: label.to_owned(),
+            estimator,
+            planner,
+            runs: runs.len(),
+            pose_error: mean(|run| run.pose_error_mean),
+            drift_floor: mean(|run| run.drift_floor_mean),
+            relative_pose_error: mean(|run| run.relative_pose_error_mean),
+            rejected_measurements: summaries.clone().map(|run| run.rejected_measurements).sum(),
+            nees_of_features: nees_of_features(runs),
+            judgements: Measure::ALL
+                .into_iter()
+                .filter_map(|measure| Judgement::of(measure, runs))
+                .collect(),
+        }
+    }
+
+    /// How many features have a mean NEES outside the interval of one step.
+    #[must_use]
+    pub fn features_outside(&self) -> usize {
+        let Some(judged) = self.judgement(Measure::FeatureNees) else {
+            return 0;
+        };
+        let outside = |nees: &&f64| !judged.interval.contains(**nees);
+        self.nees_of_features.iter().filter(outside).count()
+    }
+
     /// What one of the measures says.
     #[must_use]
     pub fn judgement(&self, measure: Measure) -> Option<&Judgement> {
@@ -69,22 +110,8 @@ impl ConsistencyResults {
         let cells: Vec<_> = plan.cells().zip(records.chunks(plan.runs)).collect();
         let cells = cells.into_par_iter().map(|(cell, records)| {
             let done: Vec<&ConsistencyRecord> = records.iter().flatten().collect();
-            let summaries = done.iter().filter_map(|record| record.summary.as_ref());
-            let mean = |value: fn(&RunSummary) -> f64| {
-                summaries.clone().map(value).sum::<f64>() / done.len() as f64
-            };
-            let judge = |measure| Judgement::of(measure, &done);
-            ConsistencyCell {
-                label: cell.point.plan.label.clone(),
-                estimator: cell.point.estimator,
-                planner: cell.planner,
-                runs: done.len(),
-                pose_error: mean(|run| run.pose_error_mean),
-                drift_floor: mean(|run| run.drift_floor_mean),
-                relative_pose_error: mean(|run| run.relative_pose_error_mean),
-                rejected_measurements: summaries.clone().map(|r| r.rejected_measurements).sum(),
-                judgements: Measure::ALL.into_iter().filter_map(judge).collect(),
-            }
+            let label = &cell.point.plan.label;
+            ConsistencyCell::of(label, cell.point.estimator, cell.planner, &done)
         });
         Self {
             title: plan.title.clone(),
@@ -176,6 +203,20 @@ impl ConsistencyResults {
             .iter()
             .flat_map(|cell| cell.judgements.iter().map(move |j| (cell, j)))
     }
+}
+
+/// NEES of each feature over 3, mean over the steps of all runs.
+fn nees_of_features(runs: &[&ConsistencyRecord]) -> Vec<f64> {
+    let count = runs.iter().map(|run| run.nees_of_features.len()).max();
+    (0..count.unwrap_or(0))
+        .filter_map(|feature| {
+            let of = runs
+                .iter()
+                .filter_map(|run| run.nees_of_features.get(feature));
+            let (sum, steps) = of.fold((0.0, 0), |all, of| (all.0 + of.0, all.1 + of.1));
+            (steps > 0).then(|| sum / (3 * steps) as f64)
+        })
+        .collect()
 }
 
 fn cell_columns() -> Vec<Column> {

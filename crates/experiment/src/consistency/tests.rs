@@ -3,6 +3,7 @@ use rand_chacha::ChaCha12Rng;
 use rand_distr::{ChiSquared, Distribution};
 
 use super::*;
+use crate::scenario::{EstimatorName, PlannerName};
 
 const STEPS: usize = 30;
 
@@ -82,6 +83,23 @@ fn the_interval_is_that_of_the_runs_together() {
     // 600 degrees of freedom: 1 ± 2.576 √(2/600), to the skew of χ².
     assert!((judged.interval.low - 0.857).abs() < 0.003);
     assert!((judged.interval.high - 1.155).abs() < 0.003);
+}
+
+#[test]
+fn a_feature_that_is_wrong_is_counted() {
+    let results = |wrong: f64| {
+        let mut runs = runs(40, 1.0);
+        for run in &mut runs {
+            run.nees_of_features = vec![(90.0, 30), (90.0 * wrong, 30)];
+        }
+        let done: Vec<&ConsistencyRecord> = runs.iter().collect();
+        let planner = PlannerName::Local;
+        ConsistencyCell::of("a", EstimatorName::EulerEkf, planner, &done)
+    };
+    assert_eq!(results(1.0).features_outside(), 0);
+    let cell = results(4.0);
+    assert_eq!(cell.features_outside(), 1);
+    assert_eq!(cell.nees_of_features, [1.0, 4.0]);
 }
 
 #[test]

@@ -20,8 +20,8 @@ pub struct StepMetrics {
     /// eᵀP⁻¹e of the pose, 6 degrees of freedom, e being the estimator's own error; absent while its covariance is singular, as at an
     /// exactly known start.
     pub pose_nees: Option<f64>,
-    /// Mean over the features of eᵀP⁻¹e, 3 degrees of freedom each; absent while one is singular.
-    pub feature_nees: Option<f64>,
+    /// eᵀP⁻¹e of each feature, 3 degrees of freedom; absent where its covariance is singular.
+    pub feature_nees: Vec<Option<f64>>,
     /// eᵀP⁻¹e of the whole state, n degrees of freedom, divided by n; absent while P is singular.
     pub joint_nees_per_dof: Option<f64>,
     /// Eq. (11) after the estimate was aligned to the object, see [`measure_step`].
@@ -84,16 +84,25 @@ fn pose_nees(belief: &Belief, error: &[f64]) -> Option<f64> {
     Some(error.dot(&factor.solve(&error)))
 }
 
-fn feature_nees(belief: &Belief, error: &[f64]) -> Option<f64> {
-    let each: Option<Vec<f64>> = (0..belief.state.features.len())
+fn feature_nees(belief: &Belief, error: &[f64]) -> Vec<Option<f64>> {
+    let of = |feature| {
+        let error = Vector3::from(*error.get(feature_offset(feature)..)?.first_chunk::<3>()?);
+        let factor = belief.covariance.feature(feature).cholesky()?;
+        Some(error.dot(&factor.solve(&error)))
+    };
+    (0..belief.state.features.len())
         .map(FeatureId)
-        .map(|feature| {
-            let error = Vector3::from(*error.get(feature_offset(feature)..)?.first_chunk::<3>()?);
-            let factor = belief.covariance.feature(feature).cholesky()?;
-            Some(error.dot(&factor.solve(&error)))
-        })
-        .collect();
-    Some(mean(&each?))
+        .map(of)
+        .collect()
+}
+
+impl StepMetrics {
+    /// Mean over the features of their NEES; absent while one of them has none.
+    #[must_use]
+    pub fn feature_nees_mean(&self) -> Option<f64> {
+        let each: Option<Vec<f64>> = self.feature_nees.iter().copied().collect();
+        each.filter(|each| !each.is_empty()).map(|each| mean(&each))
+    }
 }
 
 /// The mean; NaN of nothing.
@@ -137,7 +146,8 @@ mod tests {
         assert_relative_eq!(metrics.orientation_error, 0.12, epsilon = 1e-12);
         assert_relative_eq!(metrics.position_error, 0.05, epsilon = 1e-12);
         assert_relative_eq!(metrics.pose_nees.unwrap(), 1.69, epsilon = 1e-10);
-        assert_relative_eq!(metrics.feature_nees.unwrap(), 4.0, epsilon = 1e-10);
+        assert_relative_eq!(metrics.feature_nees[3].unwrap(), 4.0, epsilon = 1e-10);
+        assert_relative_eq!(metrics.feature_nees_mean().unwrap(), 4.0, epsilon = 1e-10);
         let joint = (1.69 + 4.0 * 4.0) / 18.0;
         assert_relative_eq!(metrics.joint_nees_per_dof.unwrap(), joint, epsilon = 1e-10);
         assert_relative_eq!(metrics.feature_errors[2], 0.2, epsilon = 1e-12);

@@ -176,7 +176,7 @@ impl SummaryBuilder {
         self.relative_feature_errors
             .push(metrics.relative_feature_error);
         self.pose_nees.extend(metrics.pose_nees);
-        self.feature_nees.extend(metrics.feature_nees);
+        self.feature_nees.extend(metrics.feature_nees_mean());
         self.joint_nees.extend(metrics.joint_nees_per_dof);
         self.last_feature_errors.clone_from(&metrics.feature_errors);
         self.inside += usize::from(signed_distance < 0.0);
@@ -248,7 +248,7 @@ mod tests {
             position_error: error,
             feature_errors: vec![error, 3.0 * error],
             pose_nees: (error > 0.0).then_some(6.0),
-            feature_nees: Some(3.0),
+            feature_nees: vec![Some(3.0)],
             joint_nees_per_dof: None,
             relative_pose_error: error / 2.0,
             relative_feature_error: error,

@@ -21,6 +21,8 @@ pub struct FeaturesFile {
 struct Seen {
     first_step: Option<usize>,
     times: usize,
+    nees_sum: f64,
+    nees_count: u32,
 }
 
 #[derive(Serialize)]
@@ -38,6 +40,8 @@ struct Row {
     sigma_y_cm: f64,
     sigma_z_cm: f64,
     error_cm: f64,
+    /// Over the steps that have one; 3 is consistent.
+    nees_mean: Option<f64>,
 }
 
 impl FeaturesFile {
@@ -53,12 +57,18 @@ impl FeaturesFile {
         })
     }
 
-    /// Counts what a step sees. As in the paper, the start counts for coverage, not for the times.
+    /// Counts what a step sees, and adds up the NEES. As in the paper, the start counts for coverage, not for the times.
     pub fn add(&mut self, view: &StepView<'_>) {
         for feature in view.visible {
             if let Some(seen) = self.seen.get_mut(feature.0) {
                 seen.first_step.get_or_insert(view.step);
                 seen.times += usize::from(view.step > 1);
+            }
+        }
+        for (seen, nees) in self.seen.iter_mut().zip(&view.metrics.feature_nees) {
+            if let Some(nees) = nees {
+                seen.nees_sum += nees;
+                seen.nees_count += 1;
             }
         }
     }
@@ -91,6 +101,8 @@ impl FeaturesFile {
                     sigma_y_cm: sigma.y,
                     sigma_z_cm: sigma.z,
                     error_cm: (e - p).norm(),
+                    nees_mean: (seen.nees_count > 0)
+                        .then(|| seen.nees_sum / f64::from(seen.nees_count)),
                 })
                 .map_err(ExperimentError::output(&path))?;
         }

@@ -149,7 +149,7 @@ impl StepsFile {
             feature_error_max_cm: errors.iter().copied().fold(0.0, f64::max),
             relative_feature_error_mean_cm: metrics.relative_feature_error,
             pose_nees: metrics.pose_nees,
-            feature_nees: metrics.feature_nees,
+            feature_nees: metrics.feature_nees_mean(),
             joint_nees_per_dof: metrics.joint_nees_per_dof,
             feature_nis: view.update.map(|update| update.features.value),
             feature_nis_dof: view.update.map(|update| update.features.dof),

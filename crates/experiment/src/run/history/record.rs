@@ -134,7 +134,7 @@ impl<'a> HistoryRecorder<'a> {
             feature_error_max_cm: number(errors.iter().copied().fold(0.0, f64::max)),
             relative_feature_error_cm: number(m.relative_feature_error),
             pose_nees: m.pose_nees.map(number),
-            feature_nees: m.feature_nees.map(number),
+            feature_nees: m.feature_nees_mean().map(number),
             trace: digits(view.belief.covariance.trace(), 7),
             covered: self.seen.iter().filter(|seen| **seen).count(),
             surface_distance_cm: number(view.surface_distance),
