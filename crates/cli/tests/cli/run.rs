@@ -5,10 +5,16 @@ use std::collections::BTreeSet;
 use super::support::{PLANNERS, Place, RUN_KEYS, STEPS, polygon};
 
 /// Columns without a unit.
-const COUNTS: [&str; 10] = [
+const COUNTS: [&str; 16] = [
     "step",
     "pose_nees",
     "feature_nees",
+    "joint_nees_per_dof",
+    "feature_nis",
+    "feature_nis_dof",
+    "structure_nis",
+    "structure_nis_dof",
+    "rejected_measurements",
     "visible_features",
     "features_seen_so_far",
     "goal_number",
