@@ -49,7 +49,7 @@ fn an_empty_file_is_called_so() {
     for empty in ["", "\n\n", "# only a comment\n"] {
         let error = parsed(empty).unwrap_err();
         assert!(error.message().contains("has no keys"), "{error}");
-        assert!(error.remedy().unwrap().contains("adslam new scenario"));
+        assert!(error.remedy().unwrap().contains("`adslam new` writes"));
     }
 }
 
