@@ -60,13 +60,8 @@ pub fn consistency(
         .into_iter()
         .filter(|planner| of(*planner).next().is_some())
         .collect();
-    let all_steps = || cells.iter().flat_map(|(_, judged)| &judged.steps);
-    let last = all_steps().map(|step| step.step).max().unwrap_or(1);
-    let values = all_steps().flat_map(|s| [s.mean, s.interval.low, s.interval.high]);
-    let axis = Axis::log(
-        &format!("{} / dof", measure.title()),
-        values.filter(|v| *v > 0.0),
-    );
+    let all_steps = cells.iter().flat_map(|(_, judged)| &judged.steps);
+    let last = all_steps.map(|step| step.step).max().unwrap_or(1);
     let steps = Axis::steps(last);
     let band = Look::Area {
         fill: BAND,
@@ -110,8 +105,12 @@ pub fn consistency(
                 let points = judged.steps.iter().map(|s| (s.step as f64, s.mean));
                 shapes.push(Shape::line(points.collect(), stroke(cell.estimator)));
             }
+            // Each panel has its own axis: where one planner loses its way the others would be flat lines.
+            let shown = of(planner).flat_map(|(_, judged)| &judged.steps);
+            let values = shown.flat_map(|s| [s.mean, s.interval.low, s.interval.high]);
+            let axis = Axis::log(&format!("{} / dof", measure.title()), values);
             let title = format!("({letter}) {}", method_name(planner));
-            Chart::new(title, steps.clone(), axis.clone()).draw(panel, shapes)?;
+            Chart::new(title, steps.clone(), axis).draw(panel, shapes)?;
         }
         Ok(())
     })

@@ -5,11 +5,14 @@
 use std::path::Path;
 
 use adslam_experiment::config::{Config, Selection};
+use adslam_experiment::consistency::{
+    ConsistencyCell, ConsistencyRecord, ConsistencyResults, Measure,
+};
 use adslam_experiment::run::{HistoryRecorder, Interrupt, RunHistory, Setup, simulate};
-use adslam_experiment::scenario::{PlannerName, Scenario};
+use adslam_experiment::scenario::{EstimatorName, PlannerName, Scenario};
 use adslam_experiment::tables::{ExperimentTables, TablePlan, TablesOptions};
 use adslam_figures::{
-    Figure, boxes, comparison, coverage, environments, estimates, nees, pose_error,
+    Figure, boxes, comparison, consistency, coverage, environments, estimates, nees, pose_error,
 };
 
 fn file(name: &str) -> std::path::PathBuf {
@@ -184,4 +187,42 @@ fn both_files_are_written() {
     assert_eq!(std::fs::read(png).unwrap(), figure.png().unwrap());
     let error = figure.write(&folder.path().join("absent")).unwrap_err();
     assert!(error.to_string().contains("coverage.svg"), "{error}");
+}
+
+/// Two planners, one of them with two estimators; the other measure was never taken.
+#[test]
+fn consistency_has_a_panel_for_each_planner_and_a_line_for_each_estimator() {
+    let record = |nees: f64| ConsistencyRecord {
+        pose_nees: vec![None, Some(nees), Some(2.0 * nees)],
+        feature_nis: vec![(0.0, 0); 3],
+        ..ConsistencyRecord::default()
+    };
+    let cell = |estimator, planner, nees| {
+        ConsistencyCell::of("hill", estimator, planner, &[&record(nees), &record(1.0)])
+    };
+    let results = ConsistencyResults {
+        title: "test".to_owned(),
+        runs: 2,
+        first_seed: 1,
+        cells: vec![
+            cell(EstimatorName::EulerEkf, PlannerName::Local, 4.0),
+            cell(EstimatorName::RightInvariantEkf, PlannerName::Local, 7.0),
+            cell(EstimatorName::EulerEkf, PlannerName::Global, 900.0),
+        ],
+    };
+    let figure = consistency("hill", Measure::PoseNees, &results).unwrap();
+    assert_eq!(figure.name(), "hill-pose-nees");
+    let texts = [
+        "Euler EKF",
+        "Right-invariant EKF",
+        "(a) Local",
+        "(b) Global",
+        "Pose NEES / dof",
+        "Step",
+    ];
+    check(&figure, &texts);
+    assert!(!figure.svg().contains("SO(3) EKF"), "no such line is there");
+    // Nothing to draw is an empty figure, not a failure.
+    let empty = consistency("hill", Measure::FeatureNis, &results).unwrap();
+    check(&empty, &[]);
 }
