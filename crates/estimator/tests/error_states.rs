@@ -67,7 +67,7 @@ fn laws<E: ErrorState>(
     truth: &State,
     delta: &[f64],
     tau: impl Fn(&State, &State) -> DVector<f64>,
-    retraction: impl Fn(&State, &DVector<f64>) -> (DMatrix<f64>, Vec<Vector3<f64>>),
+    retraction: impl Fn(&State, &DVector<f64>) -> Placed,
 ) -> Result<(), TestCaseError> {
     let size = estimate.dim();
     // ⊞ and its inverse.
@@ -86,7 +86,7 @@ fn laws<E: ErrorState>(
     let (before, after) = (t(estimate), t(truth));
     let error = &before * DVector::from_vec(E::error(estimate, truth));
     prop_assert!((error - tau(estimate, truth)).amax() < 1e-6);
-    let d = after.try_inverse().unwrap() * &before;
+    let d = after.try_inverse().expect("pitch is off ±π/2") * &before;
     assert_close(&blocks_of_reset::<E>(estimate, truth), &d, 1e-6);
     // ⊞ is the group's exponential.
     let (rotation, points) = retraction(estimate, &(before * DVector::from_column_slice(delta)));
@@ -99,18 +99,34 @@ fn laws<E: ErrorState>(
     Ok(())
 }
 
-fn by_group<G: LieGroup + for<'a> From<&'a State>>(
-    parts: impl Fn(G) -> (DMatrix<f64>, Vec<Vector3<f64>>),
-) -> (
-    impl Fn(&State, &State) -> DVector<f64>,
-    impl Fn(&State, &DVector<f64>) -> (DMatrix<f64>, Vec<Vector3<f64>>),
-) {
-    (
-        |estimate: &State, truth: &State| {
-            G::from(truth).compose(&G::from(estimate).inverse()).log()
-        },
-        move |estimate: &State, tau: &DVector<f64>| parts(G::exp(tau).compose(&G::from(estimate))),
-    )
+/// Orientation and positions.
+type Placed = (DMatrix<f64>, Vec<Vector3<f64>>);
+
+trait Parts: LieGroup + for<'a> From<&'a State> {
+    fn parts(self) -> Placed;
+}
+
+impl Parts for So3TimesPoints {
+    fn parts(self) -> Placed {
+        (matrix(&self.rotation), self.points)
+    }
+}
+
+impl Parts for SeK3 {
+    fn parts(self) -> Placed {
+        (matrix(&self.rotation), self.points)
+    }
+}
+
+/// log(X X̂⁻¹).
+fn tau_between<G: Parts>(estimate: &State, truth: &State) -> DVector<f64> {
+    let inverse = G::from(estimate).inverse();
+    G::from(truth).compose(&inverse).log()
+}
+
+/// exp(τ) X̂.
+fn moved_by<G: Parts>(estimate: &State, tau: &DVector<f64>) -> Placed {
+    G::exp(tau).compose(&G::from(estimate)).parts()
 }
 
 /// Pitch stays off ±π/2, where the paper's coordinates end.
@@ -141,16 +157,18 @@ proptest! {
             &truth,
             &delta,
             |a, b| DVector::from_vec(EulerError::error(a, b)),
-            |state, tau| {
-                let moved = added(state, tau.as_slice());
-                let group = So3TimesPoints::from(&moved);
-                (matrix(&group.rotation), group.points)
-            },
+            |state, tau| So3TimesPoints::from(&added(state, tau.as_slice())).parts(),
         )?;
-        let (tau, retraction) = by_group(|g: So3TimesPoints| (matrix(&g.rotation), g.points));
-        laws::<So3Error>(&estimate, &truth, &delta, tau, retraction)?;
-        let (tau, retraction) = by_group(|g: SeK3| (matrix(&g.rotation), g.points));
-        laws::<RightInvariantError>(&estimate, &truth, &delta, tau, retraction)?;
+        laws::<So3Error>(
+            &estimate,
+            &truth,
+            &delta,
+            tau_between::<So3TimesPoints>,
+            moved_by::<So3TimesPoints>,
+        )?;
+        laws::<RightInvariantError>(
+            &estimate, &truth, &delta, tau_between::<SeK3>, moved_by::<SeK3>,
+        )?;
     }
 
     #[test]
