@@ -30,4 +30,5 @@ mod run;
 mod schema;
 mod support;
 mod sweep;
+mod sweep_folder;
 mod tables;

@@ -94,7 +94,7 @@ fn every_planner_writes_a_whole_run() {
         let (header, rows) = table(&features);
         assert_eq!(rows.len(), 14);
         for column in header {
-            let count = ["feature", "first_seen_step", "times_seen"].contains(&column);
+            let count = ["feature", "first_seen_step", "times_seen", "nees_mean"].contains(&column);
             assert!(has_unit(column) || count, "{column}");
         }
     }

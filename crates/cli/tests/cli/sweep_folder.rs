@@ -1,0 +1,137 @@
+//! The folder of a sweep: who may work in it, and what survives.
+
+use std::fs;
+use std::process::Command;
+
+use super::support::FAILURE;
+use super::sweep::{place, records, start, sweep, tables, wait_for_records, written};
+
+#[test]
+fn another_sweep_is_refused_by_what_differs() {
+    let place = place(1);
+    place.succeeds("sweep sweep.toml --out out");
+    let help = "give another folder with --out";
+    let words = ["holds another study: `units` is 4 there and 8 here", help];
+    place.refuses("sweep sweep.toml --out out --runs 2", &words);
+    let text = sweep(1);
+    for (old, new, difference) in [
+        (
+            "3.0]",
+            "4.0]",
+            "`points[1].set.sensor.range_cm` is 3.0 there and 4.0 here",
+        ),
+        (
+            "\"local\"",
+            "\"global\"",
+            "`planners[1]` is \"local\" there and \"global\" here",
+        ),
+        (
+            "[grid]",
+            "first_seed = 2\n[grid]",
+            "`first_seed` is 1 there and 2 here",
+        ),
+    ] {
+        fs::write(place.path("other.toml"), text.replace(old, new)).unwrap();
+        place.refuses("sweep other.toml --out out", &[difference, help]);
+    }
+    // A title is no other study.
+    fs::write(place.path("other.toml"), text.replace("A few", "Some")).unwrap();
+    place.succeeds("sweep other.toml --out out");
+    assert!(place.read("out/table.md").starts_with("# Some runs"));
+}
+
+#[test]
+fn a_damaged_record_is_named_and_done_anew_when_removed() {
+    let place = place(2);
+    place.succeeds("sweep sweep.toml --out out");
+    let before = tables(&place, "out");
+    let record = place.path("out/records/0002-local-seed1.jsonl");
+    let text = fs::read_to_string(&record).unwrap();
+    fs::write(&record, &text[..text.len() / 2]).unwrap();
+    let words = ["out/records/0002-local-seed1.jsonl is damaged", "remove it"];
+    place.refuses("sweep sweep.toml --out out", &words);
+    fs::remove_file(&record).unwrap();
+    let said = place.succeeds("sweep sweep.toml --out out");
+    assert!(
+        said.out.starts_with("7 of 8 runs were there already"),
+        "{said:?}"
+    );
+    assert_eq!(tables(&place, "out"), before);
+}
+
+#[test]
+fn two_processes_cannot_share_a_folder() {
+    let place = place(50_000);
+    let mut first = start(&place, "sweep sweep.toml --out out");
+    wait_for_records(&place, "out", 3);
+    let said = place.adslam("sweep sweep.toml --out out");
+    assert_eq!(said.code, Some(2), "{said:?}");
+    let process = format!("another adslam (process {}) is at work in out", first.id());
+    for word in [&*process, "wait until it has ended", "--out"] {
+        assert!(said.err.contains(word), "{said:?}");
+    }
+    let there = records(&place, "out").len();
+    wait_for_records(&place, "out", there + 3);
+    assert!(first.try_wait().unwrap().is_none(), "the first has ended");
+    first.kill().unwrap();
+    first.wait().unwrap();
+}
+
+#[test]
+fn ctrl_c_keeps_what_is_finished() {
+    let place = place(50_000);
+    let child = start(&place, "sweep sweep.toml --out out");
+    wait_for_records(&place, "out", 10);
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    let kept = records(&place, "out").len();
+    let words = format!("{kept} of 200000 runs are kept in out; the same command does the others");
+    assert!(said.contains(&words), "{said}");
+    assert!(said.contains("interrupted"), "{said}");
+    assert!(!place.path("out/table.md").exists());
+}
+
+#[test]
+fn a_full_disk_ends_the_work_and_loses_nothing() {
+    let place = place(10);
+    place.succeeds("sweep sweep.toml --out undisturbed");
+    place.succeeds("sweep sweep.toml --out out");
+    for name in records(&place, "out").into_iter().skip(20) {
+        fs::remove_file(place.path("out/records").join(name)).unwrap();
+    }
+    for name in written() {
+        fs::remove_file(place.path("out").join(name)).unwrap();
+    }
+    for (blocks, kept) in [(0, 20), (8, 40)] {
+        let binary = env!("CARGO_BIN_EXE_adslam");
+        let script =
+            format!("trap '' XFSZ; ulimit -f {blocks}; exec '{binary}' sweep sweep.toml --out out");
+        let output = Command::new("sh")
+            .args(["-c", &script])
+            .current_dir(place.path(""))
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(FAILURE), "{said}");
+        for word in ["cannot write out/", "disk has room"] {
+            assert!(said.contains(word), "{said}");
+        }
+        assert_eq!(records(&place, "out").len(), kept, "{said}");
+        assert!(
+            written()
+                .iter()
+                .all(|name| !place.path("out").join(name).exists())
+        );
+    }
+    let said = place.succeeds("sweep sweep.toml --out out");
+    assert!(
+        said.out.starts_with("40 of 40 runs were there already"),
+        "{said:?}"
+    );
+    assert_eq!(tables(&place, "out"), tables(&place, "undisturbed"));
+}
