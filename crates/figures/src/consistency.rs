@@ -1,7 +1,7 @@
 //! Consistency over many runs: the mean of a squared error or innovation against the interval of χ².
 
 use adslam_experiment::consistency::{
-    CONFIDENCE, ConsistencyCell, ConsistencyResults, Judgement, Measure,
+    CHI_SQUARED_CONFIDENCE, ConsistencyCell, ConsistencyResults, Judgement, Measure,
 };
 use adslam_experiment::scenario::{EstimatorName, PlannerName};
 
@@ -78,7 +78,7 @@ pub fn consistency(
     }
     let interval = format!(
         "{:.0} % interval of the mean of the runs",
-        CONFIDENCE * 100.0
+        CHI_SQUARED_CONFIDENCE * 100.0
     );
     legend.push(Entry::new(band, interval));
     let rows = planners.len().div_ceil(2).max(1);

@@ -13,8 +13,9 @@ use super::{
 ///
 /// In τ a motion of everything together is the same vector whatever the estimate is, and no measurement
 /// of the robot's sensor depends on it: the filter cannot come to believe that it learned something about
-/// it (Barrau and Bonnabel, "An EKF-SLAM algorithm with consistency properties", 2015). Features that move by
-/// known displacements keep that: a displacement shifts the feature's p̂ in T and nothing else.
+/// it (Barrau and Bonnabel, "An EKF-SLAM algorithm with consistency properties", 2015). Features that move
+/// by displacements d known along the world's axes have ξ' = ξ + `[d]×` θ: a common translation stays
+/// unobservable, and the heading becomes known as far as such displacements tell it.
 #[derive(Clone, Copy, Debug)]
 pub struct RightInvariantError;
 

@@ -126,7 +126,7 @@ impl Textbook {
         }
     }
 
-    fn update_stacked(
+    pub fn update_stacked(
         self,
         state: &State,
         p: &DMatrix<f64>,

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use comfy_table::{Cell, CellAlignment, Table, presets};
 
-use super::{CONFIDENCE, ConsistencyCell, ConsistencyResults, Judgement, Measure};
+use super::{CHI_SQUARED_CONFIDENCE, ConsistencyCell, ConsistencyResults, Judgement, Measure};
 
 /// The results as Markdown.
 pub(super) fn markdown(results: &ConsistencyResults) -> String {
@@ -24,7 +24,7 @@ pub(super) fn markdown(results: &ConsistencyResults) -> String {
          cm together, the drift floor in cm).\n",
         results.runs,
         results.first_seed,
-        CONFIDENCE * 100.0,
+        CHI_SQUARED_CONFIDENCE * 100.0,
     );
     for label in results.labels() {
         let cells = results.cells.iter().filter(|cell| cell.label == label);

@@ -8,7 +8,7 @@ use super::ConsistencyRecord;
 use crate::statistics::{Interval, chi_squared};
 
 /// The probability with which a consistent filter stays within the intervals.
-pub const CONFIDENCE: f64 = 0.99;
+pub const CHI_SQUARED_CONFIDENCE: f64 = 0.99;
 
 /// What is measured of a filter. Each is χ² distributed if the filter is consistent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -79,7 +79,7 @@ pub struct StepMean {
     pub step: usize,
     /// The mean.
     pub mean: f64,
-    /// Where it lies with the probability [`CONFIDENCE`].
+    /// Where it lies with the probability [`CHI_SQUARED_CONFIDENCE`].
     pub interval: Interval,
 }
 
@@ -90,7 +90,7 @@ pub struct Judgement {
     pub measure: Measure,
     /// Mean over the steps of the mean over the runs, over the degrees of freedom.
     pub mean: f64,
-    /// Where the mean over the runs lies at one step with the probability [`CONFIDENCE`], over the degrees of
+    /// Where the mean over the runs lies at one step with the probability [`CHI_SQUARED_CONFIDENCE`], over the degrees of
     /// freedom; the mean over the steps where these change from step to step.
     pub interval: Interval,
     /// The part of the steps at which the mean over the runs is within that step's interval.
@@ -144,14 +144,9 @@ fn step_mean(measure: Measure, runs: &[&ConsistencyRecord], index: usize) -> Opt
     if dof == 0 {
         return None;
     }
-    let [low, high] = chi_squared::interval_of_mean(CONFIDENCE, dof, 1);
-    let scale = dof as f64;
     Some(StepMean {
         step: index + 1,
-        mean: value / scale,
-        interval: Interval {
-            low: low / scale,
-            high: high / scale,
-        },
+        mean: value / dof as f64,
+        interval: chi_squared::interval_per_dof(CHI_SQUARED_CONFIDENCE, dof),
     })
 }

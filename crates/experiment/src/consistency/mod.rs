@@ -11,7 +11,7 @@ mod results;
 #[cfg(test)]
 mod tests;
 
-pub use measure::{CONFIDENCE, Judgement, Measure, StepMean, Verdict};
+pub use measure::{CHI_SQUARED_CONFIDENCE, Judgement, Measure, StepMean, Verdict};
 pub use plan::ConsistencyPlan;
 pub use record::ConsistencyRecord;
 pub use results::{ConsistencyCell, ConsistencyResults};

@@ -30,8 +30,8 @@ pub enum EstimatorName {
     EulerEkf,
     /// The error-state EKF with the orientation's error on SO(3).
     So3Ekf,
-    /// The right-invariant EKF: one error of robot and features together, which never takes the
-    /// heading of everything for known.
+    /// The right-invariant EKF: one error of robot and features together, which takes no more of where
+    /// everything is and heads for known than was measured.
     RightInvariantEkf,
 }
 

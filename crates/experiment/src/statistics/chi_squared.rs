@@ -2,6 +2,8 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+use super::Interval;
+
 /// The x below which χ² with `dof` degrees of freedom lies with this probability; NaN where `dof` is 0 or the
 /// probability is none.
 #[must_use]
@@ -12,12 +14,16 @@ pub fn quantile(probability: f64, dof: usize) -> f64 {
     ChiSquared::new(dof as f64).map_or(f64::NAN, |chi| chi.inverse_cdf(probability))
 }
 
-/// Where the mean of `count` independent draws from χ² with `dof` degrees of freedom lies with this
-/// probability: as much is left below as above. Their sum has `count` times the degrees of freedom.
+/// Where χ² with `dof` degrees of freedom, divided by them, lies with this probability: as much is left
+/// below as above. The sum of independent draws is χ² with all their degrees of freedom.
 #[must_use]
-pub fn interval_of_mean(probability: f64, dof: usize, count: usize) -> [f64; 2] {
+pub fn interval_per_dof(probability: f64, dof: usize) -> Interval {
     let tail = (1.0 - probability) / 2.0;
-    [tail, 1.0 - tail].map(|p| quantile(p, dof * count) / count as f64)
+    let end = |p| quantile(p, dof) / dof as f64;
+    Interval {
+        low: end(tail),
+        high: end(1.0 - tail),
+    }
 }
 
 #[cfg(test)]
@@ -40,14 +46,14 @@ mod tests {
     }
 
     #[test]
-    fn intervals_of_a_mean_narrow_with_the_count() {
-        let [low, high] = interval_of_mean(0.99, 6, 1);
-        assert_relative_eq!(low, quantile(0.005, 6));
-        assert_relative_eq!(high, quantile(0.995, 6));
-        let [low, high] = interval_of_mean(0.99, 6, 100);
-        // The normal law with variance 2 · 6/100.
-        let half = 2.576 * (12.0f64 / 100.0).sqrt();
-        assert_relative_eq!(low, 6.0 - half, epsilon = 0.1);
-        assert_relative_eq!(high, 6.0 + half, epsilon = 0.1);
+    fn intervals_narrow_with_the_degrees_of_freedom() {
+        let Interval { low, high } = interval_per_dof(0.99, 6);
+        assert_relative_eq!(low, quantile(0.005, 6) / 6.0);
+        assert_relative_eq!(high, quantile(0.995, 6) / 6.0);
+        let Interval { low, high } = interval_per_dof(0.99, 600);
+        // The normal law with variance 2/600.
+        let half = 2.576 * (2.0f64 / 600.0).sqrt();
+        assert_relative_eq!(low, 1.0 - half, epsilon = 0.02);
+        assert_relative_eq!(high, 1.0 + half, epsilon = 0.02);
     }
 }
