@@ -6,52 +6,68 @@
     reason = "a helper that fails is a test that fails"
 )]
 
-use adslam_estimator::EstimatorKind;
 use adslam_experiment::consistency::{ConsistencyRecord, Judgement, Measure, Verdict};
 use adslam_experiment::run::{Interrupt, Setup, simulate};
-use adslam_experiment::scenario::PlannerName;
+use adslam_experiment::scenario::{EstimatorName, Named, PlannerName};
 use adslam_tests::{mean, setup, summaries};
 
 const ACCUMULATING: (&str, &str) = ("[noise]", "[noise]\ndeformation_noise = \"accumulating\"");
 
-fn judged(setup: &Setup, planner: PlannerName, seeds: u64, measure: Measure) -> Judgement {
-    let runs: Vec<ConsistencyRecord> = (1..=seeds)
+fn records(setup: &Setup, planner: PlannerName, seeds: u64) -> Vec<ConsistencyRecord> {
+    (1..=seeds)
         .map(|seed| {
             let mut record = ConsistencyRecord::default();
             simulate(setup, planner, seed, &Interrupt::new(), &mut record).unwrap();
             record
         })
-        .collect();
+        .collect()
+}
+
+fn judged(measure: Measure, runs: &[ConsistencyRecord]) -> Judgement {
     Judgement::of(measure, &runs.iter().collect::<Vec<_>>()).unwrap()
 }
 
-fn with_estimator(setup: Setup, estimator: EstimatorKind) -> Setup {
-    Setup { estimator, ..setup }
+fn with_estimator(setup: &Setup, estimator: EstimatorName) -> Setup {
+    Setup {
+        estimator: estimator.into(),
+        ..setup.clone()
+    }
 }
 
 /// docs/consistency.md has 100 runs of everything; these are as many as a test can wait for.
 #[test]
+fn every_estimator_is_consistent_in_every_measure() {
+    let setup = setup("polygon.toml", &[ACCUMULATING]);
+    for &name in EstimatorName::ALL {
+        let setup = with_estimator(&setup, name);
+        let runs = records(&setup, PlannerName::Local, 20);
+        for measure in Measure::ALL {
+            let judgement = judged(measure, &runs);
+            let Judgement { verdict, mean, .. } = judgement;
+            assert_eq!(verdict, Verdict::Consistent, "{name}, {measure:?}: {mean}");
+        }
+    }
+}
+
+#[test]
 fn the_right_invariant_filter_is_consistent_on_both_environments() {
     let measures = [
         Measure::PoseNees,
+        Measure::FeatureNees,
         Measure::FeatureNis,
         Measure::StructureNis,
     ];
     for (name, planner, seeds) in [
-        ("polygon.toml", PlannerName::Local, 30),
         ("polygon.toml", PlannerName::Combined, 30),
         ("heart.toml", PlannerName::Global, 8),
     ] {
         let setup = setup(name, &[ACCUMULATING]);
-        let setup = with_estimator(setup, EstimatorKind::RightInvariantEkf);
+        let setup = with_estimator(&setup, EstimatorName::RightInvariantEkf);
+        let runs = records(&setup, planner, seeds);
         for measure in measures {
-            let judgement = judged(&setup, planner, seeds, measure);
-            assert_eq!(
-                judgement.verdict,
-                Verdict::Consistent,
-                "{name}, {planner}, {measure:?}: {}",
-                judgement.mean
-            );
+            let Judgement { verdict, mean, .. } = judged(measure, &runs);
+            let of = format!("{name}, {planner}, {measure:?}");
+            assert_eq!(verdict, Verdict::Consistent, "{of}: {mean}");
         }
     }
 }
@@ -61,7 +77,8 @@ fn a_wrong_sigma_is_found_out() {
     for (factor, verdict) in [("2.0", Verdict::OverConfident), ("0.5", Verdict::Cautious)] {
         let mismatch = format!("[mismatch]\nfeature_noise_factor = {factor}\n\n[sensor]");
         let setup = setup("polygon.toml", &[ACCUMULATING, ("[sensor]", &mismatch)]);
-        let judgement = judged(&setup, PlannerName::Local, 10, Measure::FeatureNis);
+        let runs = records(&setup, PlannerName::Local, 10);
+        let judgement = judged(Measure::FeatureNis, &runs);
         assert_eq!(judgement.verdict, verdict, "{factor}: {}", judgement.mean);
     }
 }

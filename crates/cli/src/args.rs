@@ -95,7 +95,7 @@ pub enum Command {
         after_help = "Runs every planner of the configuration with each estimator. Stopped at any moment, \
         the same command goes on. Writes into the folder given with --out:\n  \
         consistency.md, consistency.json   the verdicts, for people and for machines\n  \
-        verdicts.csv, steps.csv (.jsonl)   as tables, over all steps and step by step\n  \
+        verdicts, steps, features (.csv, .jsonl)   as tables: over all steps, step by step, and for each feature\n  \
         figures/                           NEES and NIS against the step\n\n\
         Example:\n  adslam consistency configs/consistency.toml --runs 20 --out results/consistency"
     )]

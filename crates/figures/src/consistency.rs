@@ -35,6 +35,9 @@ const fn name(estimator: EstimatorName) -> &'static str {
     }
 }
 
+/// How dark the band is.
+const OPACITY: f64 = 0.4;
+
 /// A measure of the experiment `label` against the step: a panel for each planner, in it a line for each
 /// estimator, the mean over its runs over the degrees of freedom.
 ///
@@ -65,7 +68,7 @@ pub fn consistency(
     let steps = Axis::steps(last);
     let band = Look::Area {
         fill: BAND,
-        opacity: 0.4,
+        opacity: OPACITY,
         edge: None,
     };
     let one = Look::Line(Stroke::dashed(AXIS, 1.0, (1.5, 2.0)));
@@ -97,9 +100,15 @@ pub fn consistency(
         let panels = below_legend(area, &legend, FULL_WIDTH)?.split_evenly((rows, 2));
         for ((panel, &planner), letter) in panels.iter().zip(&planners).zip('a'..) {
             let mut shapes = Vec::new();
-            if let Some((_, judged)) = of(planner).next() {
-                shapes.push(Shape::new(band_of(judged), band));
-            }
+            // How many numbers were measured, and so the band of NIS, differs a little between estimators:
+            // together they are as dark as the one in the legend.
+            let bands = of(planner).count().max(1) as f64;
+            let faint = Look::Area {
+                fill: BAND,
+                opacity: OPACITY / bands,
+                edge: None,
+            };
+            shapes.extend(of(planner).map(|(_, judged)| Shape::new(band_of(judged), faint)));
             shapes.push(Shape::new(vec![(0.0, 1.0), (last as f64, 1.0)], one));
             for (cell, judged) in of(planner) {
                 let points = judged.steps.iter().map(|s| (s.step as f64, s.mean));

@@ -204,6 +204,7 @@ fn consistency_has_a_panel_for_each_planner_and_a_line_for_each_estimator() {
         title: "test".to_owned(),
         runs: 2,
         first_seed: 1,
+        warnings: Vec::new(),
         cells: vec![
             cell(EstimatorName::EulerEkf, PlannerName::Local, 4.0),
             cell(EstimatorName::RightInvariantEkf, PlannerName::Local, 7.0),

@@ -29,6 +29,7 @@ fn judge(
     };
     let plan = ConsistencyPlan::load(&args.config, &args.selection.selection(), estimators)?;
     answer.warn(&plan.warnings());
+    answer.set("title", &plan.title);
     let mut study = plan.open(&args.out)?;
     let end = finish(
         &mut study,
@@ -38,6 +39,7 @@ fn judge(
         ConsistencyPlan::run,
     )?;
     let results = ConsistencyResults::new(&plan, study.records());
+    answer.warn(&results.warnings);
     let mut files = results.write(&args.out)?;
     let figures = args.out.join("figures");
     prepare_folder(&figures)?;

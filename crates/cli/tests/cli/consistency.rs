@@ -2,7 +2,8 @@
 
 use serde_json::Value;
 
-use super::support::{Place, polygon};
+use super::failures::breaking;
+use super::support::{FAILURE, Place, polygon};
 use super::tables::config;
 
 fn place(runs: usize) -> Place {
@@ -12,13 +13,15 @@ fn place(runs: usize) -> Place {
     ])
 }
 
-const TABLES: [&str; 6] = [
+const TABLES: [&str; 8] = [
     "consistency.md",
     "consistency.json",
     "verdicts.csv",
     "verdicts.jsonl",
     "steps.csv",
     "steps.jsonl",
+    "features.csv",
+    "features.jsonl",
 ];
 
 #[test]
@@ -58,6 +61,8 @@ fn every_estimator_and_planner_is_judged() {
         .map(|row| serde_json::from_str(row).unwrap())
         .collect();
     assert_eq!(rows.len(), cells.len() * 5);
+    let features = place.read("out/features.jsonl");
+    assert_eq!(features.lines().count(), cells.len() * 14);
     for name in ["polygon-pose-nees", "polygon-feature-nis"] {
         assert!(
             place
@@ -96,6 +101,58 @@ fn it_goes_on_where_it_was_stopped_and_ends_the_same() {
         "consistency config.toml --estimator euler_ekf --out out",
         &words,
     );
+}
+
+#[test]
+fn machines_are_told_what_people_are() {
+    let place = place(1);
+    let twice = "--estimator so3_ekf --estimator so3_ekf";
+    let said = place.succeeds(&format!("consistency config.toml {twice} --out out --json"));
+    let answer: Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!(answer["title"], "A few runs");
+    assert_eq!(
+        (&answer["complete"], &answer["runs"]),
+        (&true.into(), &2.into())
+    );
+    let cells = answer["cells"].as_array().unwrap();
+    assert_eq!(
+        cells.len(),
+        2,
+        "an estimator that is named twice counts once"
+    );
+    assert_eq!(answer["cells"], place.json("out/consistency.json")["cells"]);
+    for file in answer["files"].as_array().unwrap() {
+        assert!(place.path(file.as_str().unwrap()).is_file(), "{file}");
+    }
+}
+
+#[test]
+fn runs_that_fail_leave_their_cell_empty() {
+    let config = config(1, &["predetermined"])
+        + "\n[[experiments]]\nlabel = \"breaking\"\nscenario = \"breaking.toml\"\n\
+           planners = [\"predetermined\"]\n";
+    let place = Place::new(&[
+        ("polygon.toml", &polygon(&[])),
+        ("breaking.toml", &breaking()),
+        ("config.toml", &config),
+    ]);
+    let said = place.adslam("consistency config.toml --out out");
+    assert_eq!(said.code, Some(FAILURE), "{said:?}");
+    for word in [
+        "3 of the runs failed",
+        "the other runs were finished and written",
+    ] {
+        assert!(said.err.contains(word), "{said:?}");
+    }
+    let text = place.read("out/consistency.md");
+    assert!(text.contains("Incomplete: 3 runs failed"), "{text}");
+    assert!(!text.contains("NaN"), "{text}");
+    let cells = place.json("out/consistency.json")["cells"].clone();
+    assert_eq!(
+        (&cells[0]["runs"], &cells[3]["runs"]),
+        (&1.into(), &0.into())
+    );
+    assert_eq!(cells[3]["pose_error"], Value::Null);
 }
 
 #[test]

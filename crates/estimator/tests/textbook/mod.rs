@@ -1,6 +1,8 @@
 //! Each estimator in its own error coordinates τ, as it is derived: F, G and H by τ, every row stacked, S
 //! inverted, the state moved by the group's exponential, and no transformation of the covariance.
 
+#![allow(dead_code, reason = "each test file uses a part")]
+
 use adslam_estimator::{ErrorState, EulerError, FeatureMeasurement, FilterNoise, PairMeasurement};
 use adslam_models::lie::{LieGroup, SeK3, So3TimesPoints};
 use adslam_models::{Control, EulerAngles, Pose, State, motion_jacobian, predicted_pose};

@@ -32,7 +32,16 @@ impl Config {
     ///
     /// # Errors
     /// An unknown label, no runs to do, or too many.
-    pub fn select(mut self, selection: &Selection) -> Result<Self, InputError> {
+    pub fn select(self, selection: &Selection) -> Result<Self, InputError> {
+        self.select_times(selection, 1)
+    }
+
+    /// The same where every run is done `times` times, in different ways.
+    pub(crate) fn select_times(
+        mut self,
+        selection: &Selection,
+        times: usize,
+    ) -> Result<Self, InputError> {
         self.runs = checked_runs(&self.path, selection.runs.unwrap_or(self.runs))?;
         let labels = self.experiments.iter().map(|plan| plan.label.as_str());
         let labels: Vec<&str> = labels.collect();
@@ -52,7 +61,7 @@ impl Config {
         };
         self.experiments.retain(wanted);
         let planners = self.experiments.iter().map(|plan| plan.planners.len());
-        let in_all = planners.sum::<usize>() * self.runs;
+        let in_all = planners.sum::<usize>() * self.runs * times;
         if in_all > MOST_RUNS_IN_ALL {
             let message = format!("there are {in_all} runs to do in all");
             return Err(

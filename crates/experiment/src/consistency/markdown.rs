@@ -61,7 +61,9 @@ fn table(cells: &[&ConsistencyCell]) -> Table {
         let (outside, all) = (cell.features_outside(), cell.nees_of_features.len());
         row.push(number(format!("{outside} of {all}")));
         for error in [cell.pose_error, cell.drift_floor, cell.relative_pose_error] {
-            row.push(number(format!("{error:.3}")));
+            row.push(number(
+                error.map_or("–".to_owned(), |error| format!("{error:.3}")),
+            ));
         }
         table.add_row(row);
     }

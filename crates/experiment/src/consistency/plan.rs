@@ -1,5 +1,6 @@
 //! A configuration with several estimators, made ready to run.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -15,7 +16,8 @@ use crate::study::{Study, StudyPlan, StudyUnit};
 /// Every planner of every experiment with each of the estimators.
 #[derive(Debug)]
 pub struct ConsistencyPlan {
-    pub(super) title: String,
+    /// The configuration's title.
+    pub title: String,
     pub(super) runs: usize,
     pub(super) first_seed: u64,
     pub(super) points: Vec<Point>,
@@ -38,20 +40,26 @@ pub(super) struct Cell<'a> {
 
 impl ConsistencyPlan {
     /// Reads the configuration at `path`, builds what is selected of it, and sets each of the estimators in
-    /// place of the scenarios' own.
+    /// place of the scenarios' own; one that is named twice counts once.
     ///
     /// # Errors
-    /// Anything wrong with a file, an unknown label, or no runs to do.
+    /// Anything wrong with a file, an unknown label, no runs to do, or too many.
     pub fn load(
         path: &Path,
         selection: &Selection,
         estimators: &[EstimatorName],
     ) -> Result<Self, InputError> {
-        let config = Config::load(path)?.select(selection)?;
+        let mut each_once: Vec<EstimatorName> = Vec::new();
+        for estimator in estimators {
+            if !each_once.contains(estimator) {
+                each_once.push(*estimator);
+            }
+        }
+        let config = Config::load(path)?.select_times(selection, each_once.len())?;
         let mut points = Vec::new();
         for plan in config.experiments {
             let setup = Setup::new(&plan.scenario)?;
-            points.extend(estimators.iter().map(|&estimator| Point {
+            points.extend(each_once.iter().map(|&estimator| Point {
                 plan: plan.clone(),
                 estimator,
                 setup: Setup {
@@ -77,13 +85,13 @@ impl ConsistencyPlan {
     /// What the user should know before running.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        let mut warnings: Vec<String> = Vec::new();
-        for warning in self.points.iter().flat_map(|point| &point.setup.warnings) {
-            if !warnings.contains(warning) {
-                warnings.push(warning.clone());
-            }
-        }
-        warnings
+        let of_deadline = |cell: Cell<'_>| cell.point.setup.deadline_warning(cell.planner);
+        let of_setups = self.points.iter().flat_map(|point| &point.setup.warnings);
+        distinct(
+            of_setups
+                .cloned()
+                .chain(self.cells().filter_map(of_deadline)),
+        )
     }
 
     /// Begins the study in `folder`, or goes on with it.
@@ -105,6 +113,7 @@ impl ConsistencyPlan {
         let mut record = ConsistencyRecord::default();
         let outcome = simulate(unit.setup, unit.planner, unit.seed, interrupt, &mut record)?;
         record.summary = Some(outcome.summary);
+        record.warnings = outcome.warnings;
         Ok(record)
     }
 
@@ -156,4 +165,10 @@ impl Point {
             "object_crc32": self.setup.object_checksum(),
         })
     }
+}
+
+/// Each text once, in order.
+pub(super) fn distinct(texts: impl Iterator<Item = String>) -> Vec<String> {
+    let mut seen = HashSet::new();
+    texts.filter(|text| seen.insert(text.clone())).collect()
 }

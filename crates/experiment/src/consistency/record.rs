@@ -13,6 +13,9 @@ use crate::run::{Observer, StepView};
 pub struct ConsistencyRecord {
     /// Its numbers as a whole.
     pub summary: Option<RunSummary>,
+    /// What the user should know of it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// n, the dimension of the state.
     pub dimension: usize,
     /// NEES of the pose.

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::plan::distinct;
 use super::{ConsistencyPlan, ConsistencyRecord, Judgement, Measure, markdown};
 use crate::ExperimentError;
 use crate::metrics::RunSummary;
@@ -23,6 +24,8 @@ pub struct ConsistencyResults {
     pub first_seed: u64,
     /// Experiment by experiment, estimator by estimator, planner by planner.
     pub cells: Vec<ConsistencyCell>,
+    /// What the user should know of the runs.
+    pub warnings: Vec<String>,
 }
 
 /// The runs of one experiment, estimator and planner.
@@ -37,16 +40,17 @@ pub struct ConsistencyCell {
     pub planner: PlannerName,
     /// Runs that were finished.
     pub runs: usize,
-    /// Mean over runs and steps of eq. (11), radians and cm together.
-    pub pose_error: f64,
+    /// Mean over runs and steps of eq. (11), radians and cm together; absent, as the others, without runs.
+    pub pose_error: Option<f64>,
     /// The drift floor: what of that no estimator can do without, cm.
-    pub drift_floor: f64,
+    pub drift_floor: Option<f64>,
     /// The pose error relative to the object.
-    pub relative_pose_error: f64,
+    pub relative_pose_error: Option<f64>,
     /// Feature measurements that the gate kept out, in all runs.
     pub rejected_measurements: usize,
-    /// NEES of each feature, mean over steps and runs, over its 3 degrees of freedom.
-    pub nees_of_features: Vec<f64>,
+    /// NEES of each feature, mean over steps and runs, over its 3 degrees of freedom; absent where its
+    /// covariance was always singular.
+    pub nees_of_features: Vec<Option<f64>>,
     /// What each measure says, of those that were taken.
     pub judgements: Vec<Judgement>,
 }
@@ -67,7 +71,8 @@ impl ConsistencyCell {
     ) -> Self {
         let summaries = runs.iter().filter_map(|record| record.summary.as_ref());
         let mean = |value: fn(&RunSummary) -> f64| {
-            summaries.clone().map(value).sum::<f64>() / runs.len() as f64
+            let sum: f64 = summaries.clone().map(value).sum();
+            (!runs.is_empty()).then(|| sum / runs.len() as f64)
         };
         Self {
             label: label.to_owned(),
@@ -93,7 +98,8 @@ impl ConsistencyCell {
             return 0;
         };
         let outside = |nees: &&f64| !judged.interval.contains(**nees);
-        self.nees_of_features.iter().filter(outside).count()
+        let each = self.nees_of_features.iter().flatten();
+        each.filter(outside).count()
     }
 
     /// What one of the measures says.
@@ -118,6 +124,12 @@ impl ConsistencyResults {
             runs: plan.runs,
             first_seed: plan.first_seed,
             cells: cells.collect(),
+            warnings: distinct(
+                records
+                    .iter()
+                    .flatten()
+                    .flat_map(|record| record.warnings.iter().cloned()),
+            ),
         }
     }
 
@@ -130,7 +142,8 @@ impl ConsistencyResults {
     }
 
     /// Writes into `folder` and returns the paths: consistency.md for people, consistency.json with all there
-    /// is, verdicts and steps as CSV and JSON lines.
+    /// is, verdicts, steps and features as CSV and JSON
+    /// lines.
     ///
     /// # Errors
     /// [`ExperimentError::Output`]; what was there is then unchanged.
@@ -145,6 +158,7 @@ impl ConsistencyResults {
         files.push(json);
         files.extend(self.write_verdicts(folder)?.finish()?);
         files.extend(self.write_steps(folder)?.finish()?);
+        files.extend(self.write_features(folder)?.finish()?);
         let paths = files.iter().map(|file| file.path().to_owned()).collect();
         AtomicFile::commit_all(files)?;
         Ok(paths)
@@ -198,6 +212,22 @@ impl ConsistencyResults {
         Ok(table)
     }
 
+    /// A row for each cell and feature.
+    fn write_features(&self, folder: &Path) -> Result<TableFile, ExperimentError> {
+        let mut columns = cell_columns();
+        columns.push(Column::new("feature", ColumnKind::Integer));
+        columns.push(Column::new("mean_per_dof", ColumnKind::Number));
+        let mut table = TableFile::create(folder, "features", columns)?;
+        for cell in &self.cells {
+            for (feature, mean) in cell.nees_of_features.iter().enumerate() {
+                let mut row = cell_values(cell, Measure::FeatureNees);
+                row.extend([json!(feature), json!(mean)]);
+                table.add(row)?;
+            }
+        }
+        Ok(table)
+    }
+
     fn judgements(&self) -> impl Iterator<Item = (&ConsistencyCell, &Judgement)> {
         self.cells
             .iter()
@@ -206,10 +236,10 @@ impl ConsistencyResults {
 }
 
 /// NEES of each feature over 3, mean over the steps of all runs.
-fn nees_of_features(runs: &[&ConsistencyRecord]) -> Vec<f64> {
+fn nees_of_features(runs: &[&ConsistencyRecord]) -> Vec<Option<f64>> {
     let count = runs.iter().map(|run| run.nees_of_features.len()).max();
     (0..count.unwrap_or(0))
-        .filter_map(|feature| {
+        .map(|feature| {
             let of = runs
                 .iter()
                 .filter_map(|run| run.nees_of_features.get(feature));

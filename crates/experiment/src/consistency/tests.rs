@@ -99,7 +99,7 @@ fn a_feature_that_is_wrong_is_counted() {
     assert_eq!(results(1.0).features_outside(), 0);
     let cell = results(4.0);
     assert_eq!(cell.features_outside(), 1);
-    assert_eq!(cell.nees_of_features, [1.0, 4.0]);
+    assert_eq!(cell.nees_of_features, [Some(1.0), Some(4.0)]);
 }
 
 #[test]

@@ -11,7 +11,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::rest_object::{RestObject, blamed};
 use crate::diagnostics::InputError;
-use crate::scenario::{self, Scenario, Structure, Viewpoints, values};
+use crate::scenario::{self, PlannerName, Scenario, Structure, Viewpoints, values};
 use crate::statistics::chi_squared;
 use crate::world::{DeformationNoise, Faults, WorldModel, WorldNoise};
 
@@ -135,6 +135,17 @@ impl Setup {
         let noise = self.planning.noise;
         self.estimator
             .build(noise, self.gate, Parallelism::Sequential)
+    }
+
+    /// What a user should know of runs of this planner that are to be repeatable; nothing where they are.
+    #[must_use]
+    pub fn deadline_warning(&self, planner: PlannerName) -> Option<String> {
+        self.scenario.deadline_ms(planner)?;
+        Some(format!(
+            "{}: the {planner} planner has a deadline, so that its runs depend on the machine and cannot be \
+             repeated",
+            self.name
+        ))
     }
 
     /// r_t t + r_d d for each feature from step `n` to `n + 1`, as filter and planners know it, cm.

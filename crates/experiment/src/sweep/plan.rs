@@ -92,14 +92,8 @@ impl SweepPlan {
     fn deadlines(&self) -> Vec<String> {
         let planners = &self.sweep.planners;
         let hurried = self.setups.iter().flat_map(|setup| {
-            let has_deadline = |planner: &&PlannerName| setup.scenario.deadline_ms(**planner).is_some();
-            planners.iter().filter(has_deadline).map(|planner| {
-                format!(
-                    "{}: the {planner} planner has a deadline, so that its runs depend on the machine and \
-                     cannot be repeated",
-                    setup.name
-                )
-            })
+            let warning = |planner: &PlannerName| setup.deadline_warning(*planner);
+            planners.iter().filter_map(warning)
         });
         hurried.collect()
     }
