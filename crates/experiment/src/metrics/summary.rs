@@ -17,8 +17,8 @@ pub struct RunSummary {
     pub steps_to_full_coverage: Option<usize>,
     /// Mean over all steps of eq. (11).
     pub pose_error_mean: f64,
-    /// Mean over all steps of the drift floor: the error of the position that no estimator can do
-    /// without, see [`DriftFloor`](super::DriftFloor), cm.
+    /// Mean over all steps of the drift floor: the error of the position that the noise alone is
+    /// expected to cost, see [`DriftFloor`](super::DriftFloor), cm.
     pub drift_floor_mean: f64,
     /// Maximum over all steps of eq. (11).
     pub pose_error_max: f64,

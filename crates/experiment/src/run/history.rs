@@ -160,7 +160,7 @@ pub struct HistoryMetrics {
     pub orientation_error_rad: f64,
     /// The position's part of it, cm.
     pub position_error_cm: f64,
-    /// The error of the position that is to be expected of any estimator, see
+    /// The error of the position that the noise alone is expected to cost, see
     /// [`DriftFloor`](crate::metrics::DriftFloor), cm; none in files of version 1.
     #[serde(default)]
     pub drift_floor_cm: Option<f64>,

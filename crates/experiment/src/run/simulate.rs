@@ -34,7 +34,7 @@ pub struct StepView<'a> {
     pub metrics: &'a StepMetrics,
     /// What the measurements said about the filter; none at the start.
     pub update: Option<&'a UpdateReport>,
-    /// The drift floor: the error of the position that is to be expected of any estimator, cm.
+    /// The drift floor: the error of the position that the noise alone is expected to cost, cm.
     pub drift_floor: f64,
     /// Signed distance of the true robot from the true surface, cm, negative inside.
     pub surface_distance: f64,
