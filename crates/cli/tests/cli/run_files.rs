@@ -42,7 +42,8 @@ fn every_file_column_and_key_is_documented() {
         ("good.toml", &polygon(&[])),
         ("faulty.toml", &polygon(&[("[noise]", FAULTS)])),
     ]);
-    let set = |heading| -> BTreeSet<String> { documented(&document, heading).into_iter().collect() };
+    let set =
+        |heading| -> BTreeSet<String> { documented(&document, heading).into_iter().collect() };
     let of_faulty = set("## summary.json");
     let mut of_good = of_faulty.clone();
     of_good.retain(|key| !key.starts_with("faults"));
