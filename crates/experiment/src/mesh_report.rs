@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::diagnostics::InputError;
 use crate::run::{features_of, parted};
-use crate::scenario::LengthUnit;
+use crate::scenario::{LengthUnit, Named};
 
 /// An object whose largest extent is not within these bounds, cm, was hardly meant.
 const USUAL_EXTENT_CM: std::ops::RangeInclusive<f64> = 1.0..=200.0;

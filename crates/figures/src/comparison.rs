@@ -13,7 +13,7 @@ use crate::style::{FLOOR, FULL_WIDTH};
 
 /// Pose error, eq. (11), and decision time of each history against the step.
 ///
-/// Beside the pose errors stands the drift floor, below which no estimator's position error can be on
+/// Beside the pose errors stands the drift floor, the position error that the noise alone must cost on
 /// average. Both axes are logarithmic: away from the object the predetermined path's error grows to many
 /// times the others'.
 ///

@@ -33,8 +33,8 @@ const NUMBERS: f64 = 44.0;
 
 /// The error of roll, pitch, yaw, x, y and z against the step, estimate less truth, within ±3
 /// standard deviations as the filter has them: a row for each, a column for each history. Dotted
-/// lines at x, y and z are ±3 standard deviations of the drift floor, the least that any estimator can
-/// have. The predetermined path has its own scale.
+/// lines at x, y and z are ±3 standard deviations of the drift floor, which the noise alone must cost.
+/// The predetermined path has its own scale.
 ///
 /// # Errors
 /// [`FigureError::Layout`].

@@ -7,6 +7,8 @@ use adslam_experiment::scenario::LengthUnit;
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Subcommand, ValueEnum};
 
+use crate::named::NameParser;
+
 /// `adslam check`
 #[derive(Debug, Args)]
 pub struct CheckArgs {
@@ -93,8 +95,8 @@ impl From<SchemaKind> for FileKind {
 pub struct MeshArgs {
     /// The mesh file
     pub file: PathBuf,
-    /// The unit of its coordinates: mm, cm or m
-    #[arg(long, default_value = "mm", value_name = "UNIT")]
+    /// The unit of its coordinates
+    #[arg(long, default_value_t, value_name = "UNIT", value_parser = NameParser::<LengthUnit>::new())]
     pub unit: LengthUnit,
     /// Features that a scenario would pick from it
     #[arg(

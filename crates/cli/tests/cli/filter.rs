@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::support::{Place, lines, log, repository};
+use super::support::{Place, documented, lines, log, repository};
 
 fn estimates(place: &Place, name: &str) -> Vec<Value> {
     let text = place.read(name);
@@ -49,36 +49,17 @@ fn the_log_in_the_documentation() {
         let variances = line["covariance_diagonal"].as_array().unwrap();
         let sum: f64 = variances.iter().map(|v| v.as_f64().unwrap()).sum();
         assert!((sum / line["trace"].as_f64().unwrap() - 1.0).abs() < 1e-14);
-        for (key, _) in document_keys(&document, "## Estimates") {
+        for key in documented(&document, "## Estimates") {
             assert!(line.get(&key).is_some(), "{key} is documented");
         }
     }
-}
-
-/// The keys in the table below a heading.
-fn document_keys(document: &str, heading: &str) -> Vec<(String, String)> {
-    let section = document.split(heading).nth(1).unwrap();
-    let section = section.split("\n## ").next().unwrap();
-    let rows = section.lines().filter_map(|line| line.strip_prefix("| `"));
-    let keys: Vec<_> = rows
-        .map(|row| {
-            row.split_once('`')
-                .map(|(k, r)| (k.to_owned(), r.to_owned()))
-                .unwrap()
-        })
-        .collect();
-    assert!(keys.len() > 4);
-    keys
 }
 
 /// Every key of a header is in the reference, and the other way round.
 #[test]
 fn the_documented_keys_of_the_header() {
     let document = fs::read_to_string(repository("docs/log.md")).unwrap();
-    let mut documented: Vec<String> = document_keys(&document, "## Header")
-        .into_iter()
-        .map(|(key, _)| key)
-        .collect();
+    let mut documented = documented(&document, "## Header");
     let mut written = Vec::new();
     for (key, value) in log()[0].as_object().unwrap() {
         match value.as_object() {

@@ -27,6 +27,7 @@ mod mesh;
 mod new;
 mod replay;
 mod run;
+mod run_files;
 mod schema;
 mod support;
 mod sweep;

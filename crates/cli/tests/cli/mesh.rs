@@ -83,7 +83,7 @@ fn what_will_not_serve_is_described_and_refused() {
     place.refuses("mesh none.stl", &["none.stl", "cannot read the file"]);
     place.refuses(
         "mesh mesh.obj --unit inch",
-        &["no unit of length", "mm, cm or m"],
+        &["no unit of length is called", "there are mm, cm, m"],
     );
     place.refuses("mesh mesh.obj --features 3", &["3 is not in 4..=2000"]);
     fs::write(place.path("wrong.stl"), OBJ).unwrap();

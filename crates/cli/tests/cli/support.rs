@@ -39,6 +39,21 @@ pub fn repository(path: &str) -> PathBuf {
         .join(path)
 }
 
+/// The names, set as code, in the first column of the table below a heading.
+pub fn documented(document: &str, heading: &str) -> Vec<String> {
+    let (_, section) = document.split_once(&format!("\n{heading}\n")).unwrap();
+    let section = section.split("\n## ").next().unwrap();
+    let cells = section
+        .lines()
+        .filter_map(|line| line.strip_prefix("| `")?.split('|').next());
+    let names: Vec<String> = cells
+        .flat_map(|cell| cell.split('`').step_by(2))
+        .map(str::to_owned)
+        .collect();
+    assert!(names.len() > 4);
+    names
+}
+
 /// `text` with parts replaced, each of which it must have.
 pub fn replaced(text: &str, replacements: &[(&str, &str)]) -> String {
     replacements

@@ -7,6 +7,7 @@ use std::path::Path;
 use super::format::{FORMAT, LogHeader, LogStep, VERSION};
 use super::lines::Lines;
 use crate::diagnostics::InputError;
+use crate::scenario::{LengthUnit, Named};
 
 /// As many features as a scenario may have: the covariance of more would not fit into memory.
 const MOST_FEATURES: usize = 2_000;
@@ -87,7 +88,7 @@ impl<R: BufRead> LogReader<R> {
             let what = format!("has version {}", header.version);
             return wrong(what, &format!("this program reads version {VERSION}"));
         }
-        if !["mm", "cm", "m"].contains(&header.length_unit.as_str()) {
+        if LengthUnit::named(&header.length_unit).is_err() {
             let what = format!("has the length unit {:?}", header.length_unit);
             return wrong(what, "write mm, cm or m, and use it for every length");
         }

@@ -1,4 +1,4 @@
-//! What no estimator can do without: the error that the noise alone must cost.
+//! The error that the noise alone must cost.
 
 use crate::world::{DeformationNoise, WorldNoise};
 
@@ -20,7 +20,8 @@ use crate::world::{DeformationNoise, WorldNoise};
 /// first estimate is exact it has Var(x) = (n − 1) q at step n, with 1/q = 1/σ² + M/(σ_t² + σ_d²).
 ///
 /// From step 2 on any feature's error has the same floor, as it is told relative to the robot.
-/// Where noise is truncated this is the best linear estimator's error.
+/// Where noise is truncated [`DriftFloor::sigma`] is that of the best linear estimator, and one that
+/// makes use of the cut could have a smaller one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriftFloor {
     /// What each step adds to the variance of b̄, cm².
@@ -84,7 +85,8 @@ impl DriftFloor {
         self.robot.max(0.0).sqrt()
     }
 
-    /// The expected distance of the estimated position from the true one, cm.
+    /// The expected distance of the estimated position from the true one, as if the error were
+    /// Gaussian: where noise is truncated it is only nearly so. cm.
     #[must_use]
     pub fn expected_error(&self) -> f64 {
         MEAN_NORM_OF_UNIT_GAUSSIAN * self.sigma()

@@ -17,8 +17,8 @@ pub struct StepMetrics {
     pub position_error: f64,
     /// Eq. (12) for each feature, cm.
     pub feature_errors: Vec<f64>,
-    /// eᵀP⁻¹e of the pose, 6 degrees of freedom, e being the estimator's own error; absent while its covariance is singular, as at an
-    /// exactly known start.
+    /// eᵀP⁻¹e of the pose, 6 degrees of freedom, e being the estimator's own error; absent while its
+    /// covariance is singular, as at an exactly known start.
     pub pose_nees: Option<f64>,
     /// eᵀP⁻¹e of each feature, 3 degrees of freedom; absent where its covariance is singular.
     pub feature_nees: Vec<Option<f64>>,

@@ -3,6 +3,7 @@
 use adslam_estimator::{Nis, UpdateReport};
 use serde::{Deserialize, Serialize};
 
+use super::DecisionTimes;
 use super::step::{StepMetrics, mean};
 use crate::world::FaultCounts;
 
@@ -17,8 +18,8 @@ pub struct RunSummary {
     pub steps_to_full_coverage: Option<usize>,
     /// Mean over all steps of eq. (11).
     pub pose_error_mean: f64,
-    /// Mean over all steps of the drift floor: the error of the position that no estimator can do
-    /// without, see [`DriftFloor`](super::DriftFloor), cm.
+    /// Mean over all steps of the drift floor: the error of the position that the noise alone is
+    /// expected to cost, see [`DriftFloor`](super::DriftFloor), cm.
     pub drift_floor_mean: f64,
     /// Maximum over all steps of eq. (11).
     pub pose_error_max: f64,
@@ -57,42 +58,6 @@ pub struct RunSummary {
     pub faults: Option<FaultCounts>,
     /// Time to choose an action.
     pub decision_ms: DecisionTimes,
-}
-
-/// Times of the decisions of a run, in milliseconds. The only numbers that differ between two runs of
-/// the same seed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct DecisionTimes {
-    /// Half of them took less.
-    pub median: f64,
-    /// 95 % of them took less.
-    pub p95: f64,
-    /// The longest.
-    pub max: f64,
-}
-
-impl DecisionTimes {
-    /// Of durations in any order; zero if there are none.
-    #[must_use]
-    pub fn of(mut milliseconds: Vec<f64>) -> Self {
-        milliseconds.sort_by(f64::total_cmp);
-        let at = |quantile: f64| {
-            // The nearest rank.
-            let rank = (quantile * milliseconds.len() as f64).ceil();
-            #[allow(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a rank within the list"
-            )]
-            let index = (rank as usize).saturating_sub(1);
-            milliseconds.get(index).copied().unwrap_or(0.0)
-        };
-        Self {
-            median: at(0.5),
-            p95: at(0.95),
-            max: at(1.0),
-        }
-    }
 }
 
 /// Adds up a run, step by step.

@@ -57,7 +57,8 @@ impl FeaturesFile {
         })
     }
 
-    /// Counts what a step sees, and adds up the NEES. As in the paper, the start counts for coverage, not for the times.
+    /// Counts what a step sees, and adds up the NEES. As in the paper, the start counts for coverage,
+    /// not for the times.
     pub fn add(&mut self, view: &StepView<'_>) {
         for feature in view.visible {
             if let Some(seen) = self.seen.get_mut(feature.0) {

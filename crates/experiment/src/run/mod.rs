@@ -3,6 +3,8 @@
 mod batch;
 mod history;
 mod identity;
+mod name;
+mod observer;
 mod planners;
 mod record;
 mod rest_object;
@@ -14,9 +16,10 @@ pub use history::{
     ActionRuns, Candidate, DrawnSurface, HISTORY_FILE, HISTORY_FORMAT, HISTORY_VERSION,
     HistoryDecision, HistoryMetrics, HistoryRecorder, HistoryStep, ObjectStep, RunHistory,
 };
+pub use observer::{NoObserver, Observer, StepView};
 pub use planners::build_planner;
 pub use record::RunRecorder;
 pub(crate) use rest_object::{features_of, parted};
 pub use setup::Setup;
 pub(crate) use setup::gate;
-pub use simulate::{NoObserver, Observer, RunOutcome, StepView, simulate};
+pub use simulate::{RunOutcome, simulate};

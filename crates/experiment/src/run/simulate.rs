@@ -6,64 +6,17 @@ use adslam_estimator::{
     Belief, Estimator, EstimatorError, FeatureMeasurement, Measurements, StructureMeasurements,
     UpdateReport,
 };
-use adslam_models::{Control, FeatureId, Pose, State};
-use adslam_planning::{Decision, Planner, PlanningError, Score, Situation, features_seen_in_pose};
+use adslam_models::{Control, FeatureId, State};
+use adslam_planning::{Decision, Planner, Situation, features_seen_in_pose};
 use adslam_surface::Surface;
-use nalgebra::{Matrix6, Point3, Vector3};
+use nalgebra::{Matrix6, Vector3};
 
-use super::{Interrupt, RunHistory, Setup, build_planner};
+use super::name::RunName;
+use super::{Interrupt, Observer, RunHistory, Setup, StepView, build_planner};
 use crate::ExperimentError;
-use crate::metrics::{DriftFloor, RunSummary, StepMetrics, SummaryBuilder, measure_step};
+use crate::metrics::{DriftFloor, RunSummary, SummaryBuilder, measure_step};
 use crate::scenario::PlannerName;
 use crate::world::World;
-
-/// Everything about one step, as it stands after the filter's update.
-#[derive(Clone, Copy, Debug)]
-pub struct StepView<'a> {
-    /// n; the start is 1.
-    pub step: usize,
-    /// The true pose.
-    pub pose: &'a Pose,
-    /// The true features, cm, world.
-    pub features: &'a [Point3<f64>],
-    /// What the filter believes.
-    pub belief: &'a Belief,
-    /// The features that the robot really sees; those that it fails to measure do not count.
-    pub visible: &'a [FeatureId],
-    /// The errors.
-    pub metrics: &'a StepMetrics,
-    /// What the measurements said about the filter; none at the start.
-    pub update: Option<&'a UpdateReport>,
-    /// The drift floor: the error of the position that is to be expected of any estimator, cm.
-    pub drift_floor: f64,
-    /// Signed distance of the true robot from the true surface, cm, negative inside.
-    pub surface_distance: f64,
-    /// The decision that led here, and how long it took in ms; none at the start.
-    pub decision: Option<(&'a Decision, f64)>,
-    /// The actions that were scored for that decision.
-    pub scores: &'a [Score],
-    /// The viewpoints that the planner visits.
-    pub viewpoints: &'a [Point3<f64>],
-}
-
-/// Watches a run: writes it down, draws it, or stops it with an error.
-pub trait Observer {
-    /// Called after every step, the start included.
-    ///
-    /// # Errors
-    /// Whatever the observer cannot go on with; it ends the run.
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError>;
-}
-
-/// Watches nothing.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct NoObserver;
-
-impl Observer for NoObserver {
-    fn step(&mut self, _: &StepView<'_>) -> Result<(), ExperimentError> {
-        Ok(())
-    }
-}
 
 /// The result of a run.
 #[derive(Clone, Debug)]
@@ -289,33 +242,4 @@ impl Sight {
 
 fn milliseconds_since(start: Instant) -> f64 {
     start.elapsed().as_secs_f64() * 1e3
-}
-
-/// What a run is called in errors.
-struct RunName(String);
-
-impl RunName {
-    fn filter_failed(&self, step: usize) -> impl FnOnce(EstimatorError) -> ExperimentError + '_ {
-        move |cause| ExperimentError::Filter {
-            run: self.0.clone(),
-            step,
-            cause,
-        }
-    }
-
-    fn planner_failed(&self, step: usize) -> impl FnOnce(PlanningError) -> ExperimentError + '_ {
-        move |cause| ExperimentError::Planning {
-            run: self.0.clone(),
-            step,
-            cause,
-        }
-    }
-
-    fn not_simulated(&self, step: usize, reason: String) -> ExperimentError {
-        ExperimentError::Simulation {
-            run: self.0.clone(),
-            step,
-            reason,
-        }
-    }
 }

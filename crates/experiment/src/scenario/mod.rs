@@ -34,7 +34,7 @@ pub use motion::{
 };
 pub use named::{Named, UnknownName};
 pub use noise::{DeformationNoise, Filter, FilterNoise, Noise, Structure};
-pub use object::{LengthUnit, Mesh, MeshPlacement, Object, Phantom, Points, UnknownUnit};
+pub use object::{LengthUnit, Mesh, MeshPlacement, Object, Phantom, Points};
 pub use planners::{Combined, Global, Local, Nearest, PlannerName, Planners, Predetermined};
 pub use robot::{Actions, Robot, Sensor};
 use values::{Name, Steps};

@@ -50,7 +50,7 @@ impl UnknownName {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::{EstimatorName, PlannerName};
+    use crate::scenario::{EstimatorName, LengthUnit, PlannerName};
 
     fn go_there_and_back<T: Named + PartialEq + std::fmt::Debug>() {
         for &one in T::ALL {
@@ -62,6 +62,7 @@ mod tests {
     fn names_go_there_and_back() {
         go_there_and_back::<PlannerName>();
         go_there_and_back::<EstimatorName>();
+        go_there_and_back::<LengthUnit>();
     }
 
     #[test]

@@ -2,14 +2,13 @@
 
 use std::fmt;
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use adslam_models::EulerAngles;
 use adslam_surface::DEFAULT_PHANTOM_SPACING_CM;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
+use super::Named;
 use super::values::{FeatureCount, FeatureNumber, List, Seed, Spacing, Triple, Vec3};
 
 /// Features picked from a mesh or a phantom unless the file says otherwise, as in the paper.
@@ -127,19 +126,20 @@ pub enum LengthUnit {
     M,
 }
 
-impl LengthUnit {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Mm, Self::Cm, Self::M];
+impl Named for LengthUnit {
+    const KIND: &'static str = "unit of length";
+    const ALL: &'static [Self] = &[Self::Mm, Self::Cm, Self::M];
 
-    /// Its name in files and on the command line.
-    pub const fn as_str(self) -> &'static str {
+    fn as_str(self) -> &'static str {
         match self {
             Self::Mm => "mm",
             Self::Cm => "cm",
             Self::M => "m",
         }
     }
+}
 
+impl LengthUnit {
     /// Centimetres in one of this unit.
     pub fn in_cm(self) -> f64 {
         match self {
@@ -152,27 +152,7 @@ impl LengthUnit {
 
 impl fmt::Display for LengthUnit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.as_str())
-    }
-}
-
-/// A text that is no [`LengthUnit`].
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{given:?} is no unit of length here: give mm, cm or m")]
-pub struct UnknownUnit {
-    /// The text.
-    pub given: String,
-}
-
-impl FromStr for LengthUnit {
-    type Err = UnknownUnit;
-
-    fn from_str(given: &str) -> Result<Self, UnknownUnit> {
-        let mut all = Self::ALL.into_iter();
-        all.find(|unit| unit.as_str() == given)
-            .ok_or_else(|| UnknownUnit {
-                given: given.to_owned(),
-            })
+        f.pad(self.as_str())
     }
 }
 

@@ -3,7 +3,9 @@
 mod anything;
 mod documented;
 mod shipped;
+mod wrong_choices;
 mod wrong_files;
+mod wrong_motions;
 mod wrong_values;
 mod wrong_worlds;
 
