@@ -41,6 +41,35 @@ fn another_sweep_is_refused_by_what_differs() {
 }
 
 #[test]
+fn another_label_is_no_other_study() {
+    let place = place(1);
+    let point = |label: &str| {
+        let set = "\"steps\" = 4";
+        format!(
+            "{}[[points]]\nlabel = \"{label}\"\nset = {{ {set} }}\n",
+            sweep(1)
+        )
+    };
+    let experiment = |label: &str| {
+        let text = config(1, &["predetermined"]);
+        assert!(text.contains("label = \"polygon\""), "{text}");
+        text.replace("label = \"polygon\"", &format!("label = \"{label}\""))
+    };
+    for label in ["shorter", "four steps"] {
+        fs::write(place.path("sweep.toml"), point(label)).unwrap();
+        fs::write(place.path("config.toml"), experiment(label)).unwrap();
+        place.succeeds("sweep sweep.toml --out out");
+        place.succeeds("consistency config.toml --estimators so3 --out consistency");
+    }
+    assert!(place.read("out/table.csv").contains("\n3,four steps,"));
+    assert!(
+        place
+            .read("consistency/consistency.md")
+            .contains("## four steps")
+    );
+}
+
+#[test]
 fn a_damaged_record_is_named_and_done_anew_when_removed() {
     let place = place(2);
     place.succeeds("sweep sweep.toml --out out");

@@ -20,7 +20,8 @@ use crate::study::{Study, StudyPlan, StudyUnit};
 pub struct SweepPlan {
     pub(super) sweep: Sweep,
     pub(super) runs: usize,
-    setups: Vec<Setup>,
+    /// Of the points, in their order.
+    pub(super) setups: Vec<Setup>,
 }
 
 /// What is kept of a run.
@@ -66,12 +67,6 @@ impl SweepPlan {
     #[must_use]
     pub const fn sweep(&self) -> &Sweep {
         &self.sweep
-    }
-
-    /// The setups of the points, in their order.
-    #[must_use]
-    pub fn setups(&self) -> &[Setup] {
-        &self.setups
     }
 
     /// How many runs there are in all.
