@@ -14,7 +14,7 @@ use adslam_experiment::log::{EstimateLine, FilterChoice, Replay};
 use adslam_experiment::run::{RunHistory, Setup};
 use adslam_experiment::scenario::values::GateProbability;
 use adslam_experiment::scenario::{EstimatorName, LengthUnit, Named, Object, Scenario};
-use adslam_experiment::sweep::Sweep;
+use adslam_experiment::sweep::{Sweep, SweepPlan};
 use adslam_experiment::{ExperimentError, MeshReport};
 use adslam_surface::{Clearance, Fan, MeshFile, MeshFormat, Surface, Topology, pick_features};
 use nalgebra::Point3;
@@ -40,8 +40,8 @@ pub const READERS: [Reader; 9] = [
     Reader::new("scenario", scenario, 64 << 20),
     // What is said of an unknown key comes from the schema, a megabyte or two.
     Reader::new("config", config, 8 << 20),
-    // Every point of a sweep is a scenario.
-    Reader::new("sweep", sweep, 64 << 20),
+    // Every point of a sweep is a scenario, and of the first few the objects are built.
+    Reader::new("sweep", sweep, 256 << 20),
     Reader::new("published", published, 8 << 20),
     // A covariance grows with the square of the features, of which eight bytes make one.
     Reader::new("log", log, 128 << 20),
@@ -129,10 +129,29 @@ fn sweep(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else {
         return;
     };
-    if let Err(error) = Sweep::parse(text, &repository("sweeps/fuzzed.toml")) {
-        shown(error);
+    let path = repository("sweeps/fuzzed.toml");
+    let built = Sweep::parse(text, &path).and_then(|mut sweep| {
+        sweep.points.truncate(POINTS_BUILT);
+        let is_mesh = |object: &Object| matches!(object, Object::Mesh(_));
+        // What lies on the disk is not a part of the input.
+        if sweep
+            .points
+            .iter()
+            .any(|point| is_mesh(&point.scenario.object))
+        {
+            return Ok(None);
+        }
+        SweepPlan::new(sweep, None).map(Some)
+    });
+    match built {
+        Ok(Some(plan)) => drop((plan.warnings(), plan.total_runs())),
+        Ok(None) => {}
+        Err(error) => shown(error),
     }
 }
+
+/// Points of a sweep whose object is built: one more takes as long as one scenario more.
+const POINTS_BUILT: usize = 4;
 
 fn published(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else {

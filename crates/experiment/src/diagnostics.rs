@@ -4,6 +4,7 @@ mod document;
 mod explain;
 mod key_path;
 mod kind;
+mod meaning;
 mod overlay;
 mod overrides;
 mod text_file;

@@ -176,10 +176,6 @@ fn runs_that_fail_are_told_and_tried_again() {
     assert!(place.read("out/table.csv").contains("\n1,,2.0,local,0,2"));
 }
 
-/// The first of two processes goes on as if the second had never been.
-#[cfg(unix)]
-/// Limits on the size of files stand for a full disk: first no record fits, and then no table.
-#[cfg(unix)]
 #[test]
 fn a_wrong_value_in_the_grid_is_shown_there() {
     let text = sweep(1).replace("[2.0, 3.0]", "[2.0, -3.0]");

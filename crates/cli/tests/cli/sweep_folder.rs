@@ -1,10 +1,15 @@
 //! The folder of a sweep: who may work in it, and what survives.
 
 use std::fs;
+#[cfg(unix)]
 use std::process::Command;
 
+#[cfg(unix)]
 use super::support::FAILURE;
-use super::sweep::{place, records, start, sweep, tables, wait_for_records, written};
+#[cfg(unix)]
+use super::sweep::written;
+use super::sweep::{place, records, start, sweep, tables, wait_for_records};
+use super::tables::config;
 
 #[test]
 fn another_sweep_is_refused_by_what_differs() {
@@ -41,6 +46,32 @@ fn another_sweep_is_refused_by_what_differs() {
 }
 
 #[test]
+fn another_label_is_no_other_study() {
+    let place = place(1);
+    let point = |label: &str| {
+        let set = "\"steps\" = 4";
+        format!(
+            "{}[[points]]\nlabel = \"{label}\"\nset = {{ {set} }}\n",
+            sweep(1)
+        )
+    };
+    let experiment =
+        |label: &str| config(1, &["predetermined"]) + &format!("label = \"{label}\"\n");
+    for label in ["shorter", "four steps"] {
+        fs::write(place.path("sweep.toml"), point(label)).unwrap();
+        fs::write(place.path("config.toml"), experiment(label)).unwrap();
+        place.succeeds("sweep sweep.toml --out out");
+        place.succeeds("consistency config.toml --estimator so3_ekf --out consistency");
+    }
+    assert!(place.read("out/table.csv").contains("\n3,four steps,"));
+    assert!(
+        place
+            .read("consistency/consistency.md")
+            .contains("## four steps")
+    );
+}
+
+#[test]
 fn a_damaged_record_is_named_and_done_anew_when_removed() {
     let place = place(2);
     place.succeeds("sweep sweep.toml --out out");
@@ -59,6 +90,7 @@ fn a_damaged_record_is_named_and_done_anew_when_removed() {
     assert_eq!(tables(&place, "out"), before);
 }
 
+/// The first of two processes goes on as if the second had never been.
 #[test]
 fn two_processes_cannot_share_a_folder() {
     let place = place(50_000);
@@ -77,6 +109,7 @@ fn two_processes_cannot_share_a_folder() {
     first.wait().unwrap();
 }
 
+#[cfg(unix)]
 #[test]
 fn ctrl_c_keeps_what_is_finished() {
     let place = place(50_000);
@@ -96,6 +129,8 @@ fn ctrl_c_keeps_what_is_finished() {
     assert!(!place.path("out/table.md").exists());
 }
 
+/// Limits on the size of files stand for a full disk: first no record fits, and then no table.
+#[cfg(unix)]
 #[test]
 fn a_full_disk_ends_the_work_and_loses_nothing() {
     let place = place(10);

@@ -158,7 +158,6 @@ impl Point {
     fn identity(&self) -> Value {
         let planners = self.plan.planners.iter().map(|planner| planner.as_str());
         json!({
-            "label": self.plan.label,
             "estimator": self.estimator,
             "planners": planners.collect::<Vec<_>>(),
             "scenario": self.plan.scenario.keys(),

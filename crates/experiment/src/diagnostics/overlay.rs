@@ -1,5 +1,6 @@
 //! Overrides of a document by tables of another, whose keys are paths into it.
 
+use std::collections::HashMap;
 use std::fmt::Display;
 use std::ops::Range;
 
@@ -7,6 +8,7 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use super::document::{Source, in_order, parse, table_at};
+use super::meaning::meaning;
 use super::{Document, InputError, overrides};
 use crate::scenario::values::LONGEST_LIST;
 
@@ -145,10 +147,18 @@ impl Document {
                 let help = format!("write at least one and at most {LONGEST_LIST}");
                 return Err(at(value.span(), message).with_help(help));
             }
-            let mut seen = std::collections::HashSet::new();
-            if let Some(twice) = elements.iter().find(|element| !seen.insert(text(element))) {
-                let message = format!("{} is listed twice", text(twice).unwrap_or("this"));
-                return Err(at(twice.span(), message)
+            let mut seen = HashMap::new();
+            for element in elements {
+                let Some(first) = seen.insert(meaning(element.get_ref()), element) else {
+                    continue;
+                };
+                let message = match (text(first), text(element)) {
+                    (Some(one), Some(other)) if one != other => {
+                        format!("{one} and {other} are the same")
+                    }
+                    (_, twice) => format!("{} is listed twice", twice.unwrap_or("this")),
+                };
+                return Err(at(element.span(), message)
                     .with_help("list each value once; for more runs raise `runs`"));
             }
             lists.push((key.get_ref().to_string(), elements.len()));

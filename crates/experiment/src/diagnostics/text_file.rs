@@ -15,9 +15,18 @@ pub(crate) fn read_text(path: &Path, most_bytes: u64, remedy: &str) -> Result<St
     let about = |message: String| InputError::about_file(path, message).with_help(remedy);
     let unreadable = |cause| InputError::unreadable(path, cause);
     let file = File::open(path).map_err(unreadable)?;
-    if file.metadata().map_err(unreadable)?.is_dir() {
+    let too_large = || {
+        about(format!(
+            "{name} has more than {most_bytes} bytes, the most that are read"
+        ))
+    };
+    let metadata = file.metadata().map_err(unreadable)?;
+    if metadata.is_dir() {
         return Err(about(format!("{name} is a folder, not a file"))
             .with_help("give the path of a file in it"));
+    }
+    if metadata.len() > most_bytes {
+        return Err(too_large());
     }
     let mut bytes = Vec::new();
     // Devices and pipes have no size, and a file may grow while it is read.
@@ -25,9 +34,7 @@ pub(crate) fn read_text(path: &Path, most_bytes: u64, remedy: &str) -> Result<St
         .read_to_end(&mut bytes)
         .map_err(unreadable)?;
     if bytes.len() as u64 > most_bytes {
-        return Err(about(format!(
-            "{name} has more than {most_bytes} bytes, the most that are read"
-        )));
+        return Err(too_large());
     }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();

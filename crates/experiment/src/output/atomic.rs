@@ -5,13 +5,11 @@ use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use tempfile::{Builder, NamedTempFile};
+use tempfile::NamedTempFile;
 
+use super::temporary::temporary;
 use crate::ExperimentError;
 use crate::diagnostics::InputError;
-
-/// How the names of unfinished files begin.
-const TEMPORARY_PREFIX: &str = ".adslam-";
 
 /// A file that is written beside its place and moved there by [`AtomicFile::commit`]. Dropped before
 /// that, it leaves what was there untouched.
@@ -29,7 +27,7 @@ impl AtomicFile {
     /// `path` is a folder, a device or a pipe, which must not be replaced by a file.
     pub fn create(path: &Path) -> Result<Self, ExperimentError> {
         refuse_other_than_file(path)?;
-        let file = readable_temporary(folder_of(path)).map_err(ExperimentError::output(path))?;
+        let file = temporary(folder_of(path)).map_err(ExperimentError::output(path))?;
         Ok(Self {
             path: path.to_owned(),
             file: BufWriter::new(file),
@@ -164,19 +162,6 @@ impl Seek for AtomicFile {
     }
 }
 
-/// A temporary file that others may read as far as the user's umask allows: those of `tempfile` are
-/// private to their owner, and results are not.
-fn readable_temporary(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = Builder::new();
-    builder.prefix(TEMPORARY_PREFIX);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder)
-}
-
 /// Renaming onto `/dev/null` would replace it, and onto a folder would fail when all is computed.
 fn refuse_other_than_file(path: &Path) -> Result<(), InputError> {
     let kind = match fs::metadata(path) {
@@ -187,43 +172,6 @@ fn refuse_other_than_file(path: &Path) -> Result<(), InputError> {
     let message = format!("{} is {kind}, and a file goes there", path.display());
     Err(InputError::about_file(path, message)
         .with_help("give another path, or remove what is there"))
-}
-
-/// Makes sure that `folder` exists and can be written to, before any long work begins.
-///
-/// # Errors
-/// [`InputError`] if it is a file, cannot be made or cannot be written to.
-pub fn prepare_folder(folder: &Path) -> Result<(), InputError> {
-    let about = |message: String| InputError::about_file(folder, message);
-    let shown = folder.display();
-    if folder.exists() && !folder.is_dir() {
-        return Err(
-            about(format!("{shown} is a file, and results go into a folder"))
-                .with_help("give the path of a folder, or of one that does not exist yet"),
-        );
-    }
-    fs::create_dir_all(folder)
-        .and_then(|()| readable_temporary(folder).map(drop))
-        .map_err(|error| {
-            about(format!("the folder {shown} cannot be written to: {error}"))
-                .with_help("give a folder that can be written to with --out")
-        })
-}
-
-/// Removes the unfinished files that processes of this program, killed on the way, left in a folder in which no
-/// other is at work.
-pub(crate) fn remove_leftovers(folder: &Path) -> io::Result<()> {
-    for entry in fs::read_dir(folder)? {
-        let entry = entry?;
-        let is_ours = entry
-            .file_name()
-            .to_string_lossy()
-            .starts_with(TEMPORARY_PREFIX);
-        if is_ours && entry.file_type()?.is_file() {
-            fs::remove_file(entry.path())?;
-        }
-    }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -247,18 +195,6 @@ mod tests {
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "no litter");
         write(&path, "third").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"third");
-    }
-
-    #[test]
-    fn folders_that_cannot_serve_are_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("file");
-        fs::write(&file, "").unwrap();
-        let error = prepare_folder(&file).unwrap_err();
-        assert!(error.message().contains("is a file"), "{error}");
-        let below = prepare_folder(&file.join("below")).unwrap_err();
-        assert!(below.message().contains("cannot be written to"), "{below}");
-        prepare_folder(&folder.path().join("new/deep")).unwrap();
         let missing = AtomicFile::create(&folder.path().join("absent/file")).unwrap_err();
         assert!(matches!(missing, ExperimentError::Output { .. }));
     }

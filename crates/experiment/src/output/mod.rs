@@ -6,11 +6,13 @@ mod features;
 mod parquet_file;
 mod steps;
 mod table_file;
+mod temporary;
 mod tum;
 
-pub(crate) use atomic::remove_leftovers;
-pub use atomic::{AtomicFile, prepare_folder};
+pub use atomic::AtomicFile;
 pub use features::{FeaturesFile, LastFeatures};
 pub use steps::StepsFile;
 pub use table_file::{Column, ColumnKind, TableFile};
+pub use temporary::prepare_folder;
+pub(crate) use temporary::{make_folder, not_writable};
 pub use tum::TumFile;

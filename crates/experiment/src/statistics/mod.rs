@@ -11,7 +11,7 @@ mod paired;
 use rand::SeedableRng;
 use rand_chacha::ChaCha12Rng;
 
-pub use bootstrap::{CONFIDENCE, Interval, MeanEstimate, RESAMPLES};
+pub use bootstrap::{BOOTSTRAP_CONFIDENCE, Interval, MeanEstimate, RESAMPLES};
 pub use holm::holm;
 pub use paired::{MOST_ENUMERATED, PairedComparison, SIGN_FLIPS};
 

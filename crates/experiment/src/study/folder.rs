@@ -12,8 +12,8 @@ use super::plan::FORMAT;
 use super::record::RecordFile;
 use super::{StudyPlan, StudyUnit};
 use crate::ExperimentError;
-use crate::diagnostics::InputError;
-use crate::output::{AtomicFile, prepare_folder, remove_leftovers};
+use crate::diagnostics::{InputError, read_text};
+use crate::output::{AtomicFile, make_folder, not_writable, prepare_folder};
 
 const LOCK: &str = "study.lock";
 const PLAN: &str = "plan.json";
@@ -22,51 +22,48 @@ const RECORDS: &str = "records";
 const LARGEST_PLAN: u64 = 1 << 28;
 const ANOTHER_FOLDER: &str = "give another folder with --out, or one that does not exist yet";
 
-/// A folder that this process may write records into.
+/// The folder of a study, locked by this process.
 #[derive(Debug)]
 pub(super) struct StudyFolder {
+    path: PathBuf,
     records: PathBuf,
+    /// The content of plan.json, there or not yet.
+    plan: String,
+    plan_is_there: bool,
     /// Checksum of the plan, to tell its records from those of another study.
     study: String,
     /// Held until this is dropped. The system gives it back too when the process dies.
-    lock: File,
+    _lock: File,
 }
 
 impl StudyFolder {
-    /// Locks the folder, makes sure that it holds this study or none, and removes what was half-written.
-    pub(super) fn open<'a>(
-        folder: &Path,
-        plan: StudyPlan<'a>,
-    ) -> Result<(Self, Vec<StudyUnit<'a>>), ExperimentError> {
-        prepare_folder(folder)?;
-        let lock = locked(folder)?;
-        let records = folder.join(RECORDS);
+    /// Locks the folder, which is made if need be, and makes sure that it holds this study or none.
+    pub(super) fn lock(path: &Path, plan: &StudyPlan<'_>) -> Result<Self, ExperimentError> {
+        make_folder(path)?;
+        let lock = locked(path)?;
+        let records = path.join(RECORDS);
         let json = plan.to_json();
-        let text = format!("{json:#}\n");
-        let is_there = same_plan(folder, &json)?;
+        let plan_is_there = same_plan(path, &json)?;
         refuse_strangers(&records, &plan.units)?;
-        for folder in [folder, &records] {
-            fs::create_dir_all(folder)
-                .and_then(|()| remove_leftovers(folder))
-                .map_err(ExperimentError::output(folder))?;
-        }
-        if !is_there {
-            AtomicFile::with_content(&folder.join(PLAN), text.as_bytes())?.commit()?;
-        }
-        let folder = Self {
+        let plan = format!("{json:#}\n");
+        Ok(Self {
+            path: path.to_owned(),
             records,
-            study: checksum(text.as_bytes()),
-            lock,
-        };
-        Ok((folder, plan.units))
+            study: checksum(plan.as_bytes()),
+            plan,
+            plan_is_there,
+            _lock: lock,
+        })
     }
 
-    /// Says in the lock's file who is at work, for whoever comes second to read; the lock holds without it.
-    pub(super) fn sign(&mut self) {
-        let _ = self
-            .lock
-            .set_len(0)
-            .and_then(|()| write!(self.lock, "{}", std::process::id()));
+    /// Makes it ready for records: removes what was half-written, and writes the plan if it is not there.
+    pub(super) fn prepare(&self) -> Result<(), ExperimentError> {
+        prepare_folder(&self.path)?;
+        prepare_folder(&self.records)?;
+        if self.plan_is_there {
+            return Ok(());
+        }
+        AtomicFile::with_content(&self.path.join(PLAN), self.plan.as_bytes())?.commit()
     }
 
     /// The file of a unit's record.
@@ -80,24 +77,27 @@ pub(super) fn checksum(bytes: &[u8]) -> String {
     format!("{:08x}", crc32fast::hash(bytes))
 }
 
-/// Takes the lock of a folder.
+/// Takes the lock of a folder, and says in its file who is at work.
 fn locked(folder: &Path) -> Result<File, ExperimentError> {
     let path = folder.join(LOCK);
     let mut options = OpenOptions::new();
     options.read(true).write(true).create(true).truncate(false);
     let lock = options
         .open(&path)
-        .map_err(ExperimentError::output(&path))?;
+        .map_err(|error| not_writable(folder, &error))?;
     let cause = match lock.try_lock() {
-        Ok(()) => return Ok(lock),
+        Ok(()) => {
+            sign(&lock);
+            return Ok(lock);
+        }
         Err(cause) => cause,
     };
     let shown = folder.display();
     Err(match cause {
         TryLockError::WouldBlock => {
             let mut holder = String::new();
-            let read = (&lock).take(20).read_to_string(&mut holder);
-            let holder = match (read, holder.parse::<u32>()) {
+            let read = lock.take(20).read_to_string(&mut holder);
+            let holder = match (read, holder.trim_end().parse::<u32>()) {
                 (Ok(_), Ok(process)) => format!(" (process {process})"),
                 _ => String::new(),
             };
@@ -119,20 +119,25 @@ fn locked(folder: &Path) -> Result<File, ExperimentError> {
     })
 }
 
+/// Writes the number of this process for whoever comes second to read. It is always as long, so that one write
+/// replaces that of a process which died here; the lock holds without it.
+fn sign(mut lock: &File) {
+    let signed = lock.write_all(format!("{:<10}\n", std::process::id()).as_bytes());
+    if signed.is_err() {
+        let _ = lock.set_len(0);
+    }
+}
+
 /// Whether the folder holds the study of this plan; not, if it holds none.
 fn same_plan(folder: &Path, plan: &Value) -> Result<bool, InputError> {
     let path = folder.join(PLAN);
     let about =
         |message: String| Err(InputError::about_file(&path, message).with_help(ANOTHER_FOLDER));
-    let file = match File::open(&path) {
-        Ok(file) => file,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
-        Err(error) => return Err(InputError::unreadable(&path, error)),
-    };
-    let mut text = Vec::new();
-    let read = file.take(LARGEST_PLAN).read_to_end(&mut text);
-    read.map_err(|error| InputError::unreadable(&path, error))?;
-    let there: Value = match serde_json::from_slice(&text) {
+    if !is_there(&path)? {
+        return Ok(false);
+    }
+    let text = read_text(&path, LARGEST_PLAN, ANOTHER_FOLDER)?;
+    let there: Value = match serde_json::from_str(&text) {
         Ok(there) => there,
         Err(cause) => {
             return about(format!("{} is no plan of a study: {cause}", path.display()));
@@ -148,6 +153,11 @@ fn same_plan(folder: &Path, plan: &Value) -> Result<bool, InputError> {
             about(format!("{shown} holds another study: {difference}"))
         }
     }
+}
+
+/// Whether there is anything at this path.
+pub(super) fn is_there(path: &Path) -> Result<bool, InputError> {
+    fs::exists(path).map_err(|error| InputError::unreadable(path, error))
 }
 
 /// Refuses a folder of records with files of other names. Hidden ones are the system's business.

@@ -68,20 +68,22 @@ enum Outcome<R> {
 
 impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
     /// Begins the study of `plan` in `folder`, or goes on with it: locks the folder, makes sure that it holds
-    /// no other study, removes what a killed process left half-written, and reads the records that are there.
+    /// no other study, reads the records that are there, and removes what a killed process left half-written.
     ///
     /// # Errors
     /// [`InputError`](crate::diagnostics::InputError) where another process works in the folder, where it holds
-    /// another study, and where a record is damaged or foreign; nothing is changed then.
-    /// [`ExperimentError::Output`] where it cannot be written to.
+    /// another study, where a record is damaged or foreign, and where it cannot be written to; nothing of what
+    /// is there is changed then, but for the lock's file. [`ExperimentError::Output`] where the plan cannot be
+    /// written.
     pub fn open(folder: &Path, plan: StudyPlan<'a>) -> Result<Self, ExperimentError> {
-        let (mut folder, units) = StudyFolder::open(folder, plan)?;
+        let folder = StudyFolder::lock(folder, &plan)?;
+        let units = plan.units;
         let records: Vec<_> = units
             .par_iter()
             .map(|unit| folder.record(unit).read())
             .collect();
         let records = records.into_iter().collect::<Result<_, _>>()?;
-        folder.sign();
+        folder.prepare()?;
         Ok(Self {
             folder,
             units,

@@ -33,7 +33,8 @@ pub struct StudyPlan<'a> {
     /// What kind of study it is, in a word, such as "sweep".
     pub kind: &'static str,
     /// All that the records depend on, by name. A folder whose study differs in any of it is refused, and the
-    /// difference named, so the names should be those that the user knows. See [`Setup::identity`].
+    /// difference named, so the names should be those that the user knows. An object may change while its
+    /// file keeps its name: see [`Setup::object_checksum`].
     pub identity: Map<String, Value>,
     /// The runs. No two may have the same point, planner and seed.
     pub units: Vec<StudyUnit<'a>>,

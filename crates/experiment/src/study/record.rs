@@ -1,15 +1,13 @@
 //! The file of one record: a line that says what it is, and a line with the record.
 
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::folder::checksum;
+use super::folder::{checksum, is_there};
 use crate::ExperimentError;
-use crate::diagnostics::InputError;
+use crate::diagnostics::{InputError, read_text};
 use crate::output::AtomicFile;
 
 const FORMAT: &str = "adslam-record";
@@ -78,17 +76,10 @@ impl<'a> RecordFile<'a> {
 
     /// Reads the record; none if there is none yet.
     pub(super) fn read<R: DeserializeOwned>(&self) -> Result<Option<R>, InputError> {
-        let unreadable = |error| InputError::unreadable(&self.path, error);
-        let file = match File::open(&self.path) {
-            Ok(file) => file,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(unreadable(error)),
-        };
-        let mut bytes = Vec::new();
-        file.take(LARGEST_RECORD)
-            .read_to_end(&mut bytes)
-            .map_err(unreadable)?;
-        let text = str::from_utf8(&bytes).map_err(|_| self.damaged("it is not text"))?;
+        if !is_there(&self.path)? {
+            return Ok(None);
+        }
+        let text = read_text(&self.path, LARGEST_RECORD, &self.remedy("move it away"))?;
         let (header, record) = text
             .split_once('\n')
             .and_then(|(header, rest)| Some((header, rest.strip_suffix('\n')?)))
@@ -117,9 +108,13 @@ impl<'a> RecordFile<'a> {
 
     fn damaged(&self, reason: &str) -> InputError {
         let message = format!("{} is damaged: {reason}", self.path.display());
-        InputError::about_file(&self.path, message).with_help(format!(
-            "remove it and give the command again: the run {} is then done anew, and no other",
+        InputError::about_file(&self.path, message).with_help(self.remedy("remove it"))
+    }
+
+    fn remedy(&self, what_to_do: &str) -> String {
+        format!(
+            "{what_to_do} and give the command again: the run {} is then done anew, and no other",
             self.unit
-        ))
+        )
     }
 }

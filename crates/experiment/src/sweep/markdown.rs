@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::SweepResults;
 use super::point::Comparison;
-use crate::statistics::MeanEstimate;
+use crate::statistics::{BOOTSTRAP_CONFIDENCE, MeanEstimate};
 
 /// A metric that people are shown.
 struct Shown {
@@ -70,9 +70,12 @@ pub(super) fn markdown(results: &SweepResults<'_>) -> String {
     let _ = writeln!(
         text,
         "{} runs of each planner at each point of `{}`, seeds {} to {last_seed}. In each cell: the mean, and in \
-         brackets its 95 % bootstrap interval. Differences are taken between runs of the same seed; their p-values \
+         brackets its {} % bootstrap interval. Differences are taken between runs of the same seed; their p-values \
          come from sign-flip randomisation tests, by Holm's method corrected for the pairs of planners at a point.\n",
-        results.plan.runs, sweep.scenario.name, sweep.first_seed,
+        results.plan.runs,
+        sweep.scenario.name,
+        sweep.first_seed,
+        BOOTSTRAP_CONFIDENCE * 100.0,
     );
     text += &too_few_runs(results);
     text += &legend(results);

@@ -7,6 +7,7 @@
 mod file;
 mod markdown;
 mod metrics;
+mod places;
 mod plan;
 mod point;
 mod results;
@@ -14,6 +15,7 @@ mod results;
 mod tests;
 
 pub(crate) use file::SweepFile;
-pub use file::{MOST_POINTS, Sweep, SweepPoint};
+pub use file::{Sweep, SweepPoint};
+pub use places::MOST_POINTS;
 pub use plan::{SweepPlan, SweepRecord};
 pub use results::SweepResults;

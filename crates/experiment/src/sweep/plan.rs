@@ -20,7 +20,8 @@ use crate::study::{Study, StudyPlan, StudyUnit};
 pub struct SweepPlan {
     pub(super) sweep: Sweep,
     pub(super) runs: usize,
-    setups: Vec<Setup>,
+    /// Of the points, in their order.
+    pub(super) setups: Vec<Setup>,
 }
 
 /// What is kept of a run.
@@ -39,22 +40,22 @@ impl SweepPlan {
     /// # Errors
     /// Anything wrong with a file, or too many runs.
     pub fn load(path: &Path, runs: Option<usize>) -> Result<Self, InputError> {
-        let sweep = Sweep::load(path)?;
-        if let Some(runs) = runs {
-            let about = |message: String| InputError::about_file(path, message);
-            checked_runs(path, runs)?;
-            if sweep.runs_in_all(runs).is_none() {
-                return Err(about(sweep.too_many(runs)).with_help("ask for fewer with --runs"));
-            }
-        }
-        Self::new(sweep, runs)
+        Self::new(Sweep::load(path)?, runs)
     }
 
-    /// Builds the points of a sweep.
+    /// Builds the points of a sweep; with another number of runs, if one is given.
     ///
     /// # Errors
-    /// An object that cannot be built, or a robot that starts inside it.
-    pub(crate) fn new(sweep: Sweep, runs: Option<usize>) -> Result<Self, InputError> {
+    /// An object that cannot be built, a robot that starts inside it, or too many runs.
+    pub fn new(sweep: Sweep, runs: Option<usize>) -> Result<Self, InputError> {
+        if let Some(runs) = runs {
+            checked_runs(&sweep.path, runs)?;
+            if sweep.runs_in_all(runs).is_none() {
+                let message = sweep.too_many(runs);
+                return Err(InputError::about_file(&sweep.path, message)
+                    .with_help("ask for fewer with --runs"));
+            }
+        }
         Ok(Self {
             runs: runs.unwrap_or(sweep.runs),
             setups: setups(&sweep.points)?,
@@ -66,12 +67,6 @@ impl SweepPlan {
     #[must_use]
     pub const fn sweep(&self) -> &Sweep {
         &self.sweep
-    }
-
-    /// The setups of the points, in their order.
-    #[must_use]
-    pub fn setups(&self) -> &[Setup] {
-        &self.setups
     }
 
     /// How many runs there are in all.

@@ -115,12 +115,12 @@ fn an_object_that_does_not_change_is_built_once() {
         \"sensor.range_cm\" = [2.0, 3.0]\n",
     );
     let plan = SweepPlan::load(&folder.path("sweep.toml"), None).unwrap();
-    let drawn: Vec<_> = plan.setups().iter().map(|setup| &setup.drawn).collect();
+    let drawn: Vec<_> = plan.setups.iter().map(|setup| &setup.drawn).collect();
     assert!(Arc::ptr_eq(drawn[0], drawn[1]) && Arc::ptr_eq(drawn[2], drawn[3]));
     assert!(!Arc::ptr_eq(drawn[1], drawn[2]));
-    for (setup, point) in plan.setups().iter().zip(&plan.sweep().points) {
+    for (setup, point) in plan.setups.iter().zip(&plan.sweep().points) {
         let alone = Setup::new(&point.scenario).unwrap();
-        assert_eq!(setup.identity(), alone.identity());
+        assert_eq!(setup.object_checksum(), alone.object_checksum());
         assert_eq!(
             setup.planning.sensor.max_range,
             *point.scenario.sensor.range_cm

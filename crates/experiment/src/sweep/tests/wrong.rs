@@ -84,6 +84,12 @@ fn what_is_no_sweep_is_explained() {
         "raise `runs`",
     );
     refused(
+        "[grid]\n\"sensor.range_cm\" = [2.0, 3, 2]",
+        "2.0 and 2 are the same",
+        "2",
+        "list each value once",
+    );
+    refused(
         "[grid]\nnoise.x = [5]",
         "is not in quotes",
         "noise",

@@ -1,4 +1,6 @@
-//! Tests of studies whose units are quick: what is done, kept, refused and done again.
+//! Tests of studies whose units are quick: what is done, kept and done again.
+
+mod refused;
 
 use std::fs;
 use std::path::Path;
@@ -7,11 +9,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-use tempfile::TempDir;
 
 use super::{Study, StudyEnd, StudyPlan, StudyUnit};
 use crate::ExperimentError;
-use crate::diagnostics::InputError;
 use crate::run::{Interrupt, Setup};
 use crate::scenario::tests::POLYGON;
 use crate::scenario::{PlannerName, Scenario};
@@ -41,7 +41,8 @@ fn setup() -> Setup {
 fn plan(setup: &Setup, seeds: u64) -> StudyPlan<'_> {
     let mut identity = serde_json::Map::new();
     identity.insert("runs".to_owned(), json!(seeds));
-    identity.insert("scenario".to_owned(), setup.identity());
+    identity.insert("scenario".to_owned(), setup.scenario.keys());
+    identity.insert("object_crc32".to_owned(), json!(setup.object_checksum()));
     let planners = [PlannerName::Local, PlannerName::Global];
     let units = planners.into_iter().flat_map(|planner| {
         (1..=seeds).map(move |seed| StudyUnit {
@@ -69,13 +70,6 @@ fn work(folder: &Path, plan: StudyPlan<'_>) -> (usize, Vec<Said>) {
     assert_eq!(end.unwrap(), StudyEnd::default());
     let records = study.records().iter().cloned();
     (begun.into_inner(), records.map(Option::unwrap).collect())
-}
-
-fn refused(folder: &Path, plan: StudyPlan<'_>) -> InputError {
-    match Study::<Said>::open(folder, plan) {
-        Err(ExperimentError::Input(error)) => error,
-        other => panic!("{other:?}"),
-    }
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -189,116 +183,4 @@ fn a_write_that_fails_ends_the_work_and_loses_nothing() {
     drop(study);
     fs::rename(folder.path().join("away"), &records).unwrap();
     assert_eq!(work(folder.path(), plan(&setup, 50)).0, 100 - kept);
-}
-
-#[test]
-fn one_process_at_a_time() {
-    let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
-    let first = Study::<Said>::open(folder.path(), plan(&setup, 1)).unwrap();
-    let error = refused(folder.path(), plan(&setup, 1));
-    let process = format!("another adslam (process {}) is at work", std::process::id());
-    assert!(error.message().starts_with(&process), "{error}");
-    assert!(error.remedy().unwrap().contains("--out"));
-    drop(first);
-    assert_eq!(work(folder.path(), plan(&setup, 1)).0, 2);
-}
-
-#[test]
-fn another_study_is_refused_by_what_differs() {
-    let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
-    work(folder.path(), plan(&setup, 1));
-    let error = refused(folder.path(), plan(&setup, 2));
-    assert!(
-        error
-            .message()
-            .contains("holds another study: `units` is 2 there and 4 here"),
-        "{error}"
-    );
-    let wider = POLYGON.replacen("range_cm = 3.0", "range_cm = 4.0", 1);
-    let wider = Setup::new(&Scenario::parse(&wider, Path::new("polygon.toml")).unwrap()).unwrap();
-    let error = refused(folder.path(), plan(&wider, 1));
-    let difference = "`scenario.keys.sensor.range_cm` is 3.0 there and 4.0 here";
-    assert!(error.message().contains(difference), "{error}");
-    assert!(error.path().ends_with("plan.json"));
-    // What is said there does not count, nor where it lies.
-    let same = format!("# A comment.\n{POLYGON}").replace("A prism of", "About");
-    let same = Setup::new(&Scenario::parse(&same, Path::new("other.toml")).unwrap()).unwrap();
-    assert_eq!(work(folder.path(), plan(&same, 1)).0, 0);
-    for text in ["", "{}", "[1", "\u{1}"] {
-        fs::write(folder.path().join("plan.json"), text).unwrap();
-        let error = refused(folder.path(), plan(&setup, 1));
-        assert!(error.message().contains("is no plan of a study"), "{error}");
-    }
-}
-
-/// A study of one planner and seed with its record altered.
-fn with_record(setup: &Setup, alter: impl FnOnce(String) -> String) -> (TempDir, InputError) {
-    let folder = tempfile::tempdir().unwrap();
-    work(folder.path(), plan(setup, 1));
-    let record = folder.path().join("records/0001-local-seed1.jsonl");
-    let text = alter(fs::read_to_string(&record).unwrap());
-    fs::write(&record, text).unwrap();
-    let error = refused(folder.path(), plan(setup, 1));
-    assert_eq!(error.path(), record);
-    fs::remove_file(&record).unwrap();
-    (folder, error)
-}
-
-#[test]
-fn damaged_and_foreign_records_are_named() {
-    let setup = setup();
-    type Alter = fn(String) -> String;
-    let cases: [(Alter, &str); 7] = [
-        (|_| String::new(), "is damaged: it is cut short"),
-        (|text| text[..text.len() - 3].to_owned(), "it is cut short"),
-        (
-            |text| text.replacen("\"seed\":1", "\"seed\":2", 1),
-            "its checksum is wrong",
-        ),
-        (
-            |text| text.replacen("adslam-record", "x", 1),
-            "its first line is not that of",
-        ),
-        (|text| text.replacen("crc32", "crc", 1), "its first line: "),
-        (
-            |text| text.replacen("local", "global", 1),
-            "is a record of another study",
-        ),
-        (
-            |text| text.replacen("\"study\":\"", "\"study\":\"0", 1),
-            "is a record of another study",
-        ),
-    ];
-    for (alter, message) in cases {
-        let (folder, error) = with_record(&setup, alter);
-        assert!(error.message().contains(message), "{error}");
-        assert!(
-            error.remedy().unwrap().contains("0001-local-seed1"),
-            "{error:?}"
-        );
-        // As the remedy says.
-        assert_eq!(work(folder.path(), plan(&setup, 1)).0, 1);
-    }
-}
-
-#[test]
-fn strangers_are_refused_and_leftovers_removed() {
-    let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
-    work(folder.path(), plan(&setup, 1));
-    let stranger = folder.path().join("records/0002-local-seed1.jsonl");
-    fs::write(&stranger, "").unwrap();
-    let error = refused(folder.path(), plan(&setup, 1));
-    assert!(
-        error.message().contains("is no record of this study"),
-        "{error}"
-    );
-    fs::remove_file(&stranger).unwrap();
-    for leftover in [".adslam-abc123", "records/.adslam-xyz789"] {
-        fs::write(folder.path().join(leftover), "half").unwrap();
-    }
-    fs::write(folder.path().join("notes.txt"), "mine").unwrap();
-    assert_eq!(work(folder.path(), plan(&setup, 1)).0, 0);
-    let left = ["notes.txt", "plan.json", "records", "study.lock"];
-    assert_eq!(names(folder.path()), left);
-    assert_eq!(names(&folder.path().join("records")).len(), 2);
 }
