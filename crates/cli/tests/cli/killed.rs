@@ -3,13 +3,16 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::fs::MetadataExt;
-use std::thread::sleep;
+use std::thread::{sleep, yield_now};
 use std::time::{Duration, SystemTime};
 
 use super::support::{Place, polygon};
 use super::sweep::{records, start, sweep, tables, wait_for_records, written};
 
+/// While runs are done.
 const KILLS: u64 = 20;
+/// While tables are written.
+const LATE_KILLS: u64 = 10;
 /// Of each of two planners at two points.
 const RUNS: usize = 60;
 const ALL: usize = 4 * RUNS;
@@ -36,6 +39,37 @@ fn files(place: &Place) -> BTreeMap<String, (u64, SystemTime)> {
     records(place, "out").into_iter().map(file).collect()
 }
 
+/// Half-written files in the folder of the tables.
+fn unfinished(place: &Place) -> usize {
+    let names = fs::read_dir(place.path("out")).unwrap();
+    let names = names.map(|entry| entry.unwrap().file_name());
+    names
+        .filter(|name| name.to_string_lossy().starts_with('.'))
+        .count()
+}
+
+/// Kills the sweep, all of whose runs are done, while it writes its tables, at any moment; then every table is whole
+/// or is not there. Returns whether some were half-written.
+fn killed_at_its_tables(place: &Place, moments: &mut Moments, whole: &[Vec<u8>]) -> bool {
+    for name in written() {
+        let _ = fs::remove_file(place.path("out").join(name));
+    }
+    let mut child = start(place, "sweep sweep.toml --out out");
+    // The folder is probed with one file; the tables are begun in pairs.
+    while unfinished(place) < 2 && child.try_wait().unwrap().is_none() {
+        yield_now();
+    }
+    sleep(Duration::from_micros(moments.below(20_000)));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    for (name, whole) in written().iter().zip(whole) {
+        if let Ok(bytes) = fs::read(place.path("out").join(name)) {
+            assert!(bytes == *whole, "{name} is another");
+        }
+    }
+    unfinished(place) > 0
+}
+
 #[test]
 fn nothing_is_lost_and_nothing_is_done_twice() {
     let place = Place::new(&[
@@ -46,13 +80,14 @@ fn nothing_is_lost_and_nothing_is_done_twice() {
     let mut finished = BTreeMap::new();
     for kill in 0..KILLS {
         let mut child = start(&place, "sweep sweep.toml --out out");
-        // One in four while it starts, the others soon after one of 15 marks on the way.
+        // One in four while it starts, the others soon after one of 15 marks on the way, the last a few runs from
+        // the end.
         if kill % 4 == 0 {
             sleep(Duration::from_millis(moments.below(40)));
         } else {
-            let mark = (kill - kill / 4) * ALL as u64 / (KILLS + 4);
+            let mark = (kill - kill / 4) * (ALL as u64 - 6) / (KILLS - KILLS / 4);
             wait_for_records(&place, "out", usize::try_from(mark).unwrap());
-            sleep(Duration::from_micros(moments.below(5_000)));
+            sleep(Duration::from_micros(moments.below(2_000)));
         }
         child.kill().unwrap();
         let output = child.wait_with_output().unwrap();
@@ -92,7 +127,17 @@ fn nothing_is_lost_and_nothing_is_done_twice() {
     );
 
     place.succeeds("sweep sweep.toml --out undisturbed");
-    assert_eq!(tables(&place, "out"), tables(&place, "undisturbed"));
+    let undisturbed = tables(&place, "undisturbed");
+    assert_eq!(tables(&place, "out"), undisturbed);
+    let half_written = (0..LATE_KILLS)
+        .filter(|_| killed_at_its_tables(&place, &mut moments, &undisturbed))
+        .count();
+    assert!(half_written > 0, "no kill fell into the writing of tables");
+    place.succeeds("sweep sweep.toml --out out");
+    assert_eq!(files(&place), last);
+    assert_eq!(tables(&place, "out"), undisturbed);
+    assert_eq!(unfinished(&place), 0, "litter");
+
     let mut alone = place.command("sweep sweep.toml --out alone");
     assert!(
         alone
@@ -102,5 +147,5 @@ fn nothing_is_lost_and_nothing_is_done_twice() {
             .status
             .success()
     );
-    assert_eq!(tables(&place, "out"), tables(&place, "alone"));
+    assert_eq!(tables(&place, "alone"), undisturbed);
 }

@@ -214,7 +214,8 @@ impl Place {
         ended
     }
 
-    /// Every file below the folder with its content; of large ones the size.
+    /// Every file below the folder with its content; of large ones the size. But for locks, which say who came
+    /// last.
     fn files(&self) -> BTreeMap<PathBuf, Vec<u8>> {
         let mut files = BTreeMap::new();
         let mut folders = vec![self.0.path().to_owned()];
@@ -224,6 +225,8 @@ impl Place {
                 let size = fs::metadata(&path).unwrap().len();
                 if path.is_dir() {
                     folders.push(path);
+                } else if path.ends_with("study.lock") {
+                    continue;
                 } else if size > 1 << 20 {
                     files.insert(path, size.to_le_bytes().to_vec());
                 } else {

@@ -57,17 +57,17 @@ fn another_label_is_no_other_study() {
     };
     let experiment =
         |label: &str| config(1, &["predetermined"]) + &format!("label = \"{label}\"\n");
-    for label in ["shorter", "four steps"] {
+    for label in ["shorter", "four-steps"] {
         fs::write(place.path("sweep.toml"), point(label)).unwrap();
         fs::write(place.path("config.toml"), experiment(label)).unwrap();
         place.succeeds("sweep sweep.toml --out out");
         place.succeeds("consistency config.toml --estimator so3_ekf --out consistency");
     }
-    assert!(place.read("out/table.csv").contains("\n3,four steps,"));
+    assert!(place.read("out/table.csv").contains("\n3,four-steps,"));
     assert!(
         place
             .read("consistency/consistency.md")
-            .contains("## four steps")
+            .contains("## four-steps")
     );
 }
 
