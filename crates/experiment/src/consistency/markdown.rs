@@ -16,13 +16,12 @@ pub(super) fn markdown(results: &ConsistencyResults) -> String {
     let last_seed = results.first_seed.wrapping_add(results.runs as u64 - 1);
     let _ = writeln!(
         text,
-        "{} runs of each cell, seeds {} to {last_seed}. Mean over steps and runs, divided by the degrees of \
+        "Each cell with the seeds {} to {last_seed}. Mean over steps and runs, divided by the degrees of \
          freedom, so that 1 is consistent; in brackets the part of the steps at which the mean over the runs \
          lies within the {:.0} % interval of χ². **Bold**: the mean over the steps lies outside, with ▲ where \
          the filter is over-confident and ▼ where it is cautious. Features outside: those whose own mean NEES lies \
          outside the interval of the features'. Errors are means over steps and runs (rad and \
          cm together, the drift floor in cm).\n",
-        results.runs,
         results.first_seed,
         CHI_SQUARED_CONFIDENCE * 100.0,
     );

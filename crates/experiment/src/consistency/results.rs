@@ -42,7 +42,7 @@ pub struct ConsistencyCell {
     pub runs: usize,
     /// Mean over runs and steps of eq. (11), radians and cm together; absent, as the others, without runs.
     pub pose_error: Option<f64>,
-    /// The drift floor: what of that no estimator can do without, cm.
+    /// The drift floor: what of that the noise alone must cost, cm.
     pub drift_floor: Option<f64>,
     /// The pose error relative to the object.
     pub relative_pose_error: Option<f64>,

@@ -69,10 +69,9 @@ pub(super) fn markdown(results: &SweepResults<'_>) -> String {
     let last_seed = sweep.first_seed.wrapping_add(results.plan.runs as u64 - 1);
     let _ = writeln!(
         text,
-        "{} runs of each planner at each point of `{}`, seeds {} to {last_seed}. In each cell: the mean, and in \
+        "Each planner at each point of `{}` with the seeds {} to {last_seed}. In each cell: the mean, and in \
          brackets its {} % bootstrap interval. Differences are taken between runs of the same seed; their p-values \
          come from sign-flip randomisation tests, by Holm's method corrected for the pairs of planners at a point.\n",
-        results.plan.runs,
         sweep.scenario.name,
         sweep.first_seed,
         BOOTSTRAP_CONFIDENCE * 100.0,
@@ -103,7 +102,7 @@ fn too_few_runs(results: &SweepResults<'_>) -> String {
     }
     let enough = (1..).find(|runs| smallest(*runs) <= LEVEL).unwrap_or(1);
     format!(
-        "{} runs are too few for any difference to have a corrected p-value of at most {LEVEL}; it takes \
+        "{} is too few runs for any difference to have a corrected p-value of at most {LEVEL}; it takes \
          {enough}.\n\n",
         results.plan.runs
     )

@@ -123,7 +123,7 @@ fn the_tables_say_what_the_records_do() {
     let markdown = fs::read_to_string(folder.path().join("table.md")).unwrap();
     for part in [
         "**Incomplete: 2 runs failed.**",
-        "8 runs of each planner at each point of `polygon`, seeds 1 to 8.",
+        "Each planner at each point of `polygon` with the seeds 1 to 8.",
         "| point | `steps` |",
         "20.0 (20.0 to 20.0), 6 of 8 runs",
         "2 of 2 differences between planners have",
@@ -143,7 +143,7 @@ fn few_runs_are_remarked_on() {
         .write(folder.path())
         .unwrap();
     let markdown = fs::read_to_string(folder.path().join("table.md")).unwrap();
-    assert!(markdown.contains("5 runs are too few"), "{markdown}");
+    assert!(markdown.contains("5 is too few runs"), "{markdown}");
     assert!(markdown.contains("it takes 6."), "{markdown}");
 }
 
