@@ -106,7 +106,7 @@ fn tables_of_every_point_and_planner() {
     let markdown = place.read("new/out/table.md");
     for part in [
         "# A few runs",
-        "3 runs of each planner",
+        "with the seeds 1 to 3",
         "| point | `range_cm` |",
         "too few",
     ] {
