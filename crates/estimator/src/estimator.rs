@@ -76,6 +76,9 @@ pub enum EstimatorKind {
 }
 
 impl EstimatorKind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::EulerEkf, Self::So3Ekf, Self::RightInvariantEkf];
+
     /// An estimator that assumes this noise. `gate`: feature measurements farther than this from what is
     /// expected, squared and in units of their covariance (χ² with 3 degrees of freedom), are not used.
     ///

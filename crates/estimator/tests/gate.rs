@@ -14,11 +14,6 @@ use proptest::prelude::*;
 const COUNT: usize = 12;
 /// 0.999 of χ² with 3 degrees of freedom.
 const GATE: f64 = 16.266;
-const KINDS: [EstimatorKind; 3] = [
-    EstimatorKind::EulerEkf,
-    EstimatorKind::So3Ekf,
-    EstimatorKind::RightInvariantEkf,
-];
 
 /// The belief after the measurements, what was said of them, and who was kept out.
 fn updated(
@@ -65,7 +60,7 @@ proptest! {
         let all = measured(&belief, &wrong);
         let right: Vec<FeatureMeasurement> =
             all.iter().copied().filter(|m| !wrong.contains(&m.feature)).collect();
-        for kind in KINDS {
+        for kind in EstimatorKind::ALL {
             let (gated, report, rejected) = updated(kind, Some(GATE), &belief, &all)?;
             let (clean, without, _) = updated(kind, None, &belief, &right)?;
             prop_assert_eq!(&rejected, &wrong);

@@ -24,11 +24,6 @@ const COUNT: usize = 9;
 const STEPS: usize = 40;
 /// Of the heading, rad², and of the place, cm², where nothing else says anything about them.
 const VARIANCES: [f64; 4] = [0.09, 1.0, 1.0, 1.0];
-const KINDS: [EstimatorKind; 3] = [
-    EstimatorKind::EulerEkf,
-    EstimatorKind::So3Ekf,
-    EstimatorKind::RightInvariantEkf,
-];
 
 /// A robot on its way round an object, and what it measures: in its own frame only, so it is the same
 /// wherever the world is.
@@ -214,7 +209,7 @@ fn the_right_invariant_filter_learns_from_deformation_what_there_is_to_learn() {
             covariance_matrix(&filtered(kind, NOISE, belief, &run))
         }))
     };
-    let [euler, so3, invariant] = KINDS.map(of_kind);
+    let [euler, so3, invariant] = EstimatorKind::ALL.map(of_kind);
     assert!(
         (invariant / best - 1.0).abs() < 0.1,
         "{invariant} of {best}"
@@ -227,7 +222,7 @@ fn the_right_invariant_filter_learns_from_deformation_what_there_is_to_learn() {
 /// The place alone, the heading known: linear in every error, so no filter gains by it.
 #[test]
 fn no_filter_learns_where_everything_is() {
-    for kind in KINDS {
+    for kind in EstimatorKind::ALL {
         let run = recording(0.05);
         let known = start(&run.start);
         let n = common_motion(&run.start).columns(1, 3).into_owned();
@@ -258,7 +253,7 @@ fn estimates_move_with_the_world() {
         ),
         features: state.features.iter().map(|p| motion * p).collect(),
     };
-    for kind in KINDS {
+    for kind in EstimatorKind::ALL {
         let run = recording(0.05);
         let there = Recording {
             start: moved(&run.start),

@@ -1,6 +1,5 @@
 //! A configuration with several estimators, made ready to run.
 
-use std::collections::HashSet;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -11,6 +10,7 @@ use crate::config::{Config, ExperimentPlan, Selection};
 use crate::diagnostics::InputError;
 use crate::run::{Interrupt, Setup, simulate};
 use crate::scenario::{EstimatorName, Named, PlannerName};
+use crate::study::points;
 use crate::study::{Study, StudyPlan, StudyUnit};
 
 /// Every planner of every experiment with each of the estimators.
@@ -85,13 +85,14 @@ impl ConsistencyPlan {
     /// What the user should know before running.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        let of_deadline = |cell: Cell<'_>| cell.point.setup.deadline_warning(cell.planner);
-        let of_setups = self.points.iter().flat_map(|point| &point.setup.warnings);
-        distinct(
-            of_setups
-                .cloned()
-                .chain(self.cells().filter_map(of_deadline)),
-        )
+        points::warnings(self.points())
+    }
+
+    /// Every point with its planners.
+    fn points(&self) -> impl Iterator<Item = points::Point<'_>> + Clone {
+        self.points
+            .iter()
+            .map(|point| (&point.setup, point.plan.planners.as_slice()))
     }
 
     /// Begins the study in `folder`, or goes on with it.
@@ -126,17 +127,6 @@ impl ConsistencyPlan {
     }
 
     fn study(&self) -> StudyPlan<'_> {
-        let mut units = Vec::with_capacity(self.total_runs());
-        for (number, point) in self.points.iter().enumerate() {
-            for &planner in &point.plan.planners {
-                units.extend((0..self.runs as u64).map(|run| StudyUnit {
-                    point: number,
-                    setup: &point.setup,
-                    planner,
-                    seed: self.first_seed.wrapping_add(run),
-                }));
-            }
-        }
         let points: Vec<Value> = self.points.iter().map(Point::identity).collect();
         let identity = [
             ("runs", json!(self.runs)),
@@ -149,7 +139,7 @@ impl ConsistencyPlan {
                 .map(|(name, value)| (name.to_owned(), value))
                 .into_iter()
                 .collect(),
-            units,
+            units: points::units(self.points(), self.first_seed, self.runs),
         }
     }
 }
@@ -164,10 +154,4 @@ impl Point {
             "object_crc32": self.setup.object_checksum(),
         })
     }
-}
-
-/// Each text once, in order.
-pub(super) fn distinct(texts: impl Iterator<Item = String>) -> Vec<String> {
-    let mut seen = HashSet::new();
-    texts.filter(|text| seen.insert(text.clone())).collect()
 }

@@ -6,12 +6,12 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::plan::distinct;
 use super::{ConsistencyPlan, ConsistencyRecord, Judgement, Measure, markdown};
 use crate::ExperimentError;
 use crate::metrics::RunSummary;
 use crate::output::{AtomicFile, Column, ColumnKind, TableFile};
 use crate::scenario::{EstimatorName, Named, PlannerName};
+use crate::study::points::distinct;
 
 /// What a consistency study gave: made of its records alone.
 #[derive(Clone, Debug, Serialize)]

@@ -96,20 +96,9 @@ impl DriftFloor {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::world::NOISE;
     use approx::assert_relative_eq;
     use proptest::prelude::*;
-
-    const NOISE: WorldNoise = WorldNoise {
-        rotation_sigma: 0.02,
-        translation_sigma: 0.03,
-        feature_translation_sigma: 0.03,
-        feature_deformation_sigma: 0.05,
-        feature_measurement_sigma: 0.02,
-        structure_measurement_sigma: 0.5,
-        initial_feature_sigma: 0.02,
-        deformation: DeformationNoise::Fresh,
-        truncate_at_sigmas: None,
-    };
 
     fn at_step(noise: &WorldNoise, features: usize, step: usize) -> DriftFloor {
         let mut floor = DriftFloor::at_start(noise, features);

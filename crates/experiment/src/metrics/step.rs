@@ -5,6 +5,7 @@ use adslam_models::{EulerAngles, FeatureId, POSE_DIM, Pose, State, feature_offse
 use nalgebra::{Isometry3, Vector3, Vector6};
 
 use super::align;
+use crate::statistics::mean;
 
 /// The errors of a belief against the truth at one step.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,11 +104,6 @@ impl StepMetrics {
         let each: Option<Vec<f64>> = self.feature_nees.iter().copied().collect();
         each.filter(|each| !each.is_empty()).map(|each| mean(&each))
     }
-}
-
-/// The mean; NaN of nothing.
-pub(super) fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
 }
 
 #[cfg(test)]

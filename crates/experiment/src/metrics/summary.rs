@@ -4,7 +4,8 @@ use adslam_estimator::{Nis, UpdateReport};
 use serde::{Deserialize, Serialize};
 
 use super::DecisionTimes;
-use super::step::{StepMetrics, mean};
+use super::step::StepMetrics;
+use crate::statistics::mean;
 use crate::world::FaultCounts;
 
 /// The result of one run. Pose errors mix radians and cm as eq. (11) does; lengths are cm.

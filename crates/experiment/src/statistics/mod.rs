@@ -31,6 +31,6 @@ fn generator(purpose: Draws) -> ChaCha12Rng {
 }
 
 /// The arithmetic mean; NaN of nothing.
-fn mean(values: &[f64]) -> f64 {
+pub(crate) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }

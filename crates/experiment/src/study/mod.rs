@@ -11,6 +11,7 @@
 mod difference;
 mod folder;
 mod plan;
+pub(crate) mod points;
 mod record;
 #[cfg(test)]
 mod tests;

@@ -12,7 +12,8 @@ use crate::config::checked_runs;
 use crate::diagnostics::InputError;
 use crate::metrics::RunSummary;
 use crate::run::{Interrupt, NoObserver, Setup, simulate};
-use crate::scenario::{Named, PlannerName};
+use crate::scenario::Named;
+use crate::study::points::{self, Point};
 use crate::study::{Study, StudyPlan, StudyUnit};
 
 /// A sweep made ready to run: the object of every point built.
@@ -78,19 +79,13 @@ impl SweepPlan {
     /// What the user should know before running, each once.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        let of_setups = self.setups.iter().flat_map(|setup| &setup.warnings);
-        let of_deadlines = self.deadlines();
-        distinct(of_setups.chain(&of_deadlines))
+        points::warnings(self.points())
     }
 
-    /// The planners that have only so much time for a decision.
-    fn deadlines(&self) -> Vec<String> {
-        let planners = &self.sweep.planners;
-        let hurried = self.setups.iter().flat_map(|setup| {
-            let warning = |planner: &PlannerName| setup.deadline_warning(*planner);
-            planners.iter().filter_map(warning)
-        });
-        hurried.collect()
+    /// Every point with its planners.
+    fn points(&self) -> impl Iterator<Item = Point<'_>> + Clone {
+        let planners = self.sweep.planners.as_slice();
+        self.setups.iter().map(move |setup| (setup, planners))
     }
 
     /// Begins the sweep in `folder`, or goes on with it.
@@ -124,24 +119,10 @@ impl SweepPlan {
 
     /// The runs: point by point, planner by planner, seed by seed.
     fn study(&self) -> StudyPlan<'_> {
-        let mut units = Vec::with_capacity(self.total_runs());
-        for (point, setup) in self.setups.iter().enumerate() {
-            for &planner in &self.sweep.planners {
-                for run in 0..self.runs as u64 {
-                    let seed = self.sweep.first_seed.wrapping_add(run);
-                    units.push(StudyUnit {
-                        point,
-                        setup,
-                        planner,
-                        seed,
-                    });
-                }
-            }
-        }
         StudyPlan {
             kind: "sweep",
             identity: self.identity(),
-            units,
+            units: points::units(self.points(), self.sweep.first_seed, self.runs),
         }
     }
 
@@ -196,10 +177,4 @@ fn setups(points: &[SweepPoint]) -> Result<Vec<Setup>, InputError> {
         .map(|(point, &object)| built[object].varied(&point.scenario))
         .collect();
     varied.into_iter().collect()
-}
-
-/// Each text once, in order.
-pub(super) fn distinct<'a>(texts: impl Iterator<Item = &'a String>) -> Vec<String> {
-    let mut seen = std::collections::HashSet::new();
-    texts.filter(|text| seen.insert(*text)).cloned().collect()
 }

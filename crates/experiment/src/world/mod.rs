@@ -6,6 +6,8 @@ mod streams;
 mod truth;
 
 pub use faults::{FaultCounts, Faults};
+#[cfg(test)]
+pub(crate) use noise::NOISE;
 pub use noise::{DeformationNoise, WorldNoise};
 pub use streams::{Stream, stream};
 pub use truth::{SimulatedMeasurements, World, WorldModel};

@@ -63,3 +63,17 @@ impl WorldNoise {
         Vector3::from_fn(|_, _| self.standard(generator))
     }
 }
+
+/// The paper's noise on the polygon, for tests.
+#[cfg(test)]
+pub(crate) const NOISE: WorldNoise = WorldNoise {
+    rotation_sigma: 0.02,
+    translation_sigma: 0.03,
+    feature_translation_sigma: 0.03,
+    feature_deformation_sigma: 0.05,
+    feature_measurement_sigma: 0.02,
+    structure_measurement_sigma: 0.5,
+    initial_feature_sigma: 0.02,
+    deformation: DeformationNoise::Fresh,
+    truncate_at_sigmas: None,
+};

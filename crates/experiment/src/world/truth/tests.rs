@@ -1,18 +1,7 @@
 //! The statistics of the world's noise, and what faults change.
 
 use super::*;
-
-const NOISE: WorldNoise = WorldNoise {
-    rotation_sigma: 0.02,
-    translation_sigma: 0.03,
-    feature_translation_sigma: 0.03,
-    feature_deformation_sigma: 0.05,
-    feature_measurement_sigma: 0.02,
-    structure_measurement_sigma: 0.5,
-    initial_feature_sigma: 0.02,
-    deformation: DeformationNoise::Fresh,
-    truncate_at_sigmas: None,
-};
+use crate::world::NOISE;
 
 fn model(noise: WorldNoise) -> WorldModel {
     let rest = (0..5)
