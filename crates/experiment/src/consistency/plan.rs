@@ -57,8 +57,8 @@ impl ConsistencyPlan {
         }
         let config = Config::load(path)?.select_times(selection, each_once.len())?;
         let mut points = Vec::new();
-        for plan in config.experiments {
-            let setup = Setup::new(&plan.scenario)?;
+        let setups = Setup::of_all(config.experiments.iter().map(|plan| &plan.scenario))?;
+        for (plan, setup) in config.experiments.iter().zip(setups) {
             points.extend(each_once.iter().map(|&estimator| Point {
                 plan: plan.clone(),
                 estimator,

@@ -9,6 +9,7 @@ mod planners;
 mod record;
 mod rest_object;
 mod setup;
+mod shared_objects;
 mod simulate;
 
 pub use batch::{Batch, BatchResult, Interrupt, Progress};

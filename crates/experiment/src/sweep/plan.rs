@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Sweep, SweepPoint};
+use super::Sweep;
 use crate::ExperimentError;
 use crate::config::checked_runs;
 use crate::diagnostics::InputError;
@@ -59,7 +58,7 @@ impl SweepPlan {
         }
         Ok(Self {
             runs: runs.unwrap_or(sweep.runs),
-            setups: setups(&sweep.points)?,
+            setups: Setup::of_all(sweep.points.iter().map(|point| &point.scenario))?,
             sweep,
         })
     }
@@ -151,30 +150,4 @@ impl SweepPlan {
             .into_iter()
             .collect()
     }
-}
-
-/// The setup of every point. An object that several have is built once: a phantom takes as long as some runs.
-fn setups(points: &[SweepPoint]) -> Result<Vec<Setup>, InputError> {
-    let mut first_with: Vec<&SweepPoint> = Vec::new();
-    let object_of: Vec<usize> = points
-        .iter()
-        .map(|point| {
-            let same = |first: &&SweepPoint| first.scenario.object == point.scenario.object;
-            first_with.iter().position(same).unwrap_or_else(|| {
-                first_with.push(point);
-                first_with.len() - 1
-            })
-        })
-        .collect();
-    let built: Vec<_> = first_with
-        .par_iter()
-        .map(|point| Setup::new(&point.scenario))
-        .collect();
-    let built: Vec<Setup> = built.into_iter().collect::<Result<_, _>>()?;
-    let varied: Vec<_> = points
-        .par_iter()
-        .zip(&object_of)
-        .map(|(point, &object)| built[object].varied(&point.scenario))
-        .collect();
-    varied.into_iter().collect()
 }
