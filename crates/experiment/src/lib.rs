@@ -9,6 +9,7 @@ pub mod log;
 mod mesh_report;
 pub mod metrics;
 pub mod output;
+pub mod provenance;
 pub mod run;
 pub mod scenario;
 pub mod schema;
