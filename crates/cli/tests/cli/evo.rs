@@ -2,26 +2,29 @@
 
 use std::process::Command;
 
+use adslam_test_programs::Program;
+
 use super::support::{Place, polygon};
 
-/// `ADSLAM_EVO_APE` or else the path.
-fn evo_ape() -> String {
-    std::env::var("ADSLAM_EVO_APE").unwrap_or_else(|_| "evo_ape".to_owned())
-}
+const EVO_APE: Program = Program {
+    what: "evo",
+    variable: "ADSLAM_EVO_APE",
+    names: &["evo_ape"],
+    remedy: "pip install evo",
+};
 
 #[test]
 fn evo_finds_the_position_error_that_we_do() {
+    let Some(evo_ape) = EVO_APE.find() else {
+        return;
+    };
     let place = Place::new(&[("polygon.toml", &polygon(&[]))]);
     // evo keeps its settings in the home folder.
     let evo = |arguments: &[&str]| {
-        let mut command = Command::new(evo_ape());
+        let mut command = Command::new(&evo_ape);
         let command = command.args(arguments).env("HOME", place.path("."));
         command.current_dir(place.path(".")).output()
     };
-    if let Err(reason) = evo(&["--help"]) {
-        println!("skipped: evo_ape cannot be run ({reason}); `pip install evo` brings it");
-        return;
-    }
     place.succeeds("run polygon.toml --planner predetermined --out run");
     let output = evo(&[
         "tum",
