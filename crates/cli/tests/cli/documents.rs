@@ -126,26 +126,35 @@ fn run(place: &Place, command: &str) -> Result<(), String> {
     ))
 }
 
-#[test]
-fn no_command_of_a_page_fails_when_pasted() {
-    let (mut run_here, mut failed) = (0, Vec::new());
-    for page in pages() {
-        let name = page.file_name().unwrap().to_string_lossy().into_owned();
-        let commands = commands(&fs::read_to_string(&page).unwrap());
-        if commands.is_empty() {
+/// How many commands of a page were run, and what became of those that failed.
+fn try_page(page: &Path) -> (usize, Vec<String>) {
+    let name = page.file_name().unwrap().to_string_lossy();
+    let (mut count, mut failed) = (0, Vec::new());
+    let place = place();
+    for command in commands(&fs::read_to_string(page).unwrap()) {
+        let Some(rewritten) = rewritten(&command) else {
             continue;
-        }
-        let place = place();
-        for command in commands {
-            let Some(rewritten) = rewritten(&command) else {
-                continue;
-            };
-            run_here += 1;
-            if let Err(reason) = run(&place, &rewritten) {
-                failed.push(format!("{name}: {command}\n{reason}"));
-            }
+        };
+        count += 1;
+        if let Err(reason) = run(&place, &rewritten) {
+            failed.push(format!("{name}: {command}\n{reason}"));
         }
     }
+    (count, failed)
+}
+
+#[test]
+fn no_command_of_a_page_fails_when_pasted() {
+    let pages = pages();
+    let ended: Vec<(usize, Vec<String>)> = std::thread::scope(|scope| {
+        let tried: Vec<_> = pages
+            .iter()
+            .map(|page| scope.spawn(|| try_page(page)))
+            .collect();
+        tried.into_iter().map(|page| page.join().unwrap()).collect()
+    });
+    let run_here: usize = ended.iter().map(|(count, _)| count).sum();
+    let failed: Vec<String> = ended.into_iter().flat_map(|(_, failed)| failed).collect();
     assert!(failed.is_empty(), "{}", failed.join("\n"));
     assert!(run_here > 30, "only {run_here} commands were found");
 }

@@ -67,6 +67,24 @@ pub struct EstimateErrors {
     pub joint_nees_per_dof: Option<f64>,
 }
 
+impl EstimateErrors {
+    /// Whether they can be written as JSON.
+    pub(super) fn are_finite(&self) -> bool {
+        let nees = [self.pose_nees, self.feature_nees, self.joint_nees_per_dof];
+        let errors = [
+            self.pose_error,
+            self.orientation_error,
+            self.position_error,
+            self.relative_pose_error,
+            self.feature_error_mean,
+            self.feature_error_max,
+            self.relative_feature_error_mean,
+        ];
+        let mut all = errors.into_iter().chain(nees.into_iter().flatten());
+        all.all(f64::is_finite)
+    }
+}
+
 impl From<&StepMetrics> for EstimateErrors {
     fn from(metrics: &StepMetrics) -> Self {
         let of_features = &metrics.feature_errors;

@@ -208,8 +208,7 @@ impl<R: BufRead> LogReader<R> {
         for axis in 0..3 {
             let of_axis = || sums.iter().map(|sum| sum[axis]);
             let (total, size) = (of_axis().sum::<f64>(), of_axis().map(f64::abs).sum::<f64>());
-            // Not finite where they overflow.
-            if !(total.abs() <= UNBALANCED * size) {
+            if !total.is_finite() || total.abs() > UNBALANCED * size {
                 let what = format!("(step {n}) has structure_sums that add up to {total}, not 0");
                 return wrong(
                     what,

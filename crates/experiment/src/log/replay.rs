@@ -145,12 +145,13 @@ impl<R: BufRead> Replay<R> {
         self.metrics = None;
         if let Some(truth) = truth.map(LogTruth::state) {
             let error = self.estimator.error(&self.belief.state, &truth);
-            let metrics = measure_step(&self.belief, &truth, &error).ok_or_else(|| {
+            let metrics = measure_step(&self.belief, &truth, &error);
+            self.metrics = metrics.filter(|found| EstimateErrors::from(found).are_finite());
+            if self.metrics.is_none() {
+                let what = "has a truth from which the error is not finite";
                 let help = "is it in the log's unit of length?";
-                self.log
-                    .error("has a truth from which the error is not finite", help)
-            })?;
-            self.metrics = Some(metrics);
+                return Err(self.log.error(what, help));
+            }
         }
         Ok(())
     }
