@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use adslam_experiment::config::{Config, Published};
 use adslam_experiment::diagnostics::InputError;
-use adslam_experiment::log::{EstimateLine, FilterChoice, Replay};
+use adslam_experiment::log::{EstimateLine, FilterChoice, GateChoice, Replay};
 use adslam_experiment::run::{RunHistory, Setup};
 use adslam_experiment::scenario::values::GateProbability;
 use adslam_experiment::scenario::{EstimatorName, LengthUnit, Named, Object, Scenario};
@@ -167,8 +167,8 @@ fn log(bytes: &[u8]) {
         filter(
             bytes,
             FilterChoice {
-                estimator,
-                gate_probability: GateProbability::new(0.99).ok(),
+                estimator: Some(estimator),
+                gate: GateProbability::new(0.99).map_or(GateChoice::All, GateChoice::Probability),
             },
         );
     }

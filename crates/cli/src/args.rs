@@ -45,7 +45,8 @@ pub enum Command {
         features.csv   the features at the end\n  \
         truth.tum, estimate.tum   trajectories for the evo tools\n  \
         history.json   everything that adslam replay shows\n  \
-        replay.html    that, as a page to open in a browser, with --html\n\n\
+        replay.html    that, as a page to open in a browser, with --html\n  \
+        log.jsonl      the run as a log for adslam filter, with --log\n\n\
         Example:\n  \
         adslam run scenarios/heart.toml --planner local --seed 3 --out results/heart-local-3")]
     Run(RunArgs),
@@ -67,7 +68,8 @@ pub enum Command {
     #[command(
         after_help = "The log is JSON lines, a header and a line a step; docs/log.md is its \
         reference. The output has a line of estimates for each step.\n\n\
-        Example:\n  adslam filter recording.jsonl --out estimates.jsonl"
+        Example:\n  adslam filter samples/polygon.log.jsonl --out estimates.jsonl\n  \
+        gzip -dc recording.jsonl.gz | adslam filter - --out - | jq .trace"
     )]
     Filter(FilterArgs),
     /// Run everything that a configuration asks for and tabulate it

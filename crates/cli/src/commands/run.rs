@@ -1,6 +1,7 @@
 //! `adslam run`
 
 use adslam_experiment::ExperimentError;
+use adslam_experiment::log::LogRecorder;
 use adslam_experiment::output::prepare_folder;
 use adslam_experiment::run::{Interrupt, Observer, RunRecorder, Setup, StepView, simulate};
 use adslam_experiment::scenario::{Named, Scenario};
@@ -32,9 +33,11 @@ fn run_once(
     let setup = Setup::new(&scenario)?;
     answer.warn(&setup.warnings);
     prepare_folder(&args.out)?;
-    let recorder = RunRecorder::create(&args.out, &setup, args.planner, args.seed)?;
+    let recorder = RunRecorder::create(&args.out, &setup, args.planner, args.seed, args.unit)?;
+    let log = || LogRecorder::create(&args.out, &setup, args.planner, args.seed);
     let mut observer = Shown {
         recorder,
+        log: args.log.then(log).transpose()?,
         bar: progress::bar(setup.steps, "steps"),
     };
     let result = simulate(&setup, args.planner, args.seed, interrupt, &mut observer);
@@ -45,7 +48,9 @@ fn run_once(
     if args.html {
         adslam_replay::write_html(&[observer.recorder.history()], &page)?;
     }
+    let log = observer.log.map(LogRecorder::commit).transpose()?;
     let mut files = observer.recorder.commit(&outcome.summary)?;
+    files.extend(log);
     files.extend(args.html.then_some(page));
     let summary = &outcome.summary;
     if summary.observed == 0 {
@@ -86,12 +91,16 @@ fn run_once(
 /// Writes the run down and shows how far it is.
 struct Shown<'a> {
     recorder: RunRecorder<'a>,
+    log: Option<LogRecorder<'a>>,
     bar: ProgressBar,
 }
 
 impl Observer for Shown<'_> {
     fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
         self.bar.set_position(view.step as u64);
+        if let Some(log) = &mut self.log {
+            log.step(view)?;
+        }
         self.recorder.step(view)
     }
 }

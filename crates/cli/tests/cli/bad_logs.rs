@@ -271,3 +271,73 @@ fn unknown_keys() {
         &["the key `step` is given twice", "keep one"],
     );
 }
+
+#[test]
+fn sums_that_cannot_be() {
+    let with = |sums: Value, words: &[&str]| {
+        let mut log = log();
+        log[2]
+            .as_object_mut()
+            .unwrap()
+            .remove("structure_measurements");
+        log[2]["structure_sums"] = sums;
+        refused(&lines(&log), 3, words);
+    };
+    with(
+        json!([[0, 0, 0]]),
+        &["has 1 structure_sums", "the log has 4 features"],
+    );
+    let off = json!([[1, 0, 0], [-1, 0, 0], [0, 2, 0], [0, -1, 0]]);
+    with(
+        off,
+        &[
+            "structure_sums that add up to 1, not 0",
+            "each pair goes into two sums",
+        ],
+    );
+    with(
+        json!([[1e308, 0, 0], [1e308, 0, 0], [0, 0, 0], [0, 0, 0]]),
+        &["add up to inf"],
+    );
+    let zero = json!([[0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0]]);
+    let words = [
+        "structure_sums and structure_measurements",
+        "give one of the two",
+    ];
+    refused_with(3, "/structure_sums", Some(zero), &words);
+}
+
+#[test]
+fn truths_and_filters_that_cannot_be() {
+    let truth = json!({"pose": [0, 0, 0, 0, 0, 0], "features": [[0, 0, 0]]});
+    for line in [1, 3] {
+        let words = [
+            "true positions of 1 features, and the log has 4",
+            "truth.features",
+        ];
+        refused_with(line, "/truth", Some(truth.clone()), &words);
+    }
+    let far = json!({"pose": [0, 0, 0, 0, 0, 0], "features": [[1e300, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0]]});
+    refused_with(3, "/truth", Some(far), &["the error is not finite"]);
+    let words = [
+        "no estimator is called \"so3\"",
+        "did you mean so3_ekf?",
+        "--estimator",
+    ];
+    refused_with(1, "/filter", Some(json!({"estimator": "so3"})), &words);
+    for probability in [0.0, 1.0, -2.0] {
+        let filter = json!({"gate_probability": probability});
+        refused_with(
+            1,
+            "/filter",
+            Some(filter),
+            &["gate probability", "above 0 and below 1"],
+        );
+    }
+    refused_with(
+        1,
+        "/filter",
+        Some(json!({"gate": 0.9})),
+        &["unknown key `gate`"],
+    );
+}

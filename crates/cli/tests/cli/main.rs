@@ -13,10 +13,13 @@ mod bad_scenarios;
 mod bad_tables;
 mod check;
 mod consistency;
+mod documents;
 mod evo;
 mod export;
 mod failures;
 mod filter;
+mod filter_sources;
+mod filter_truth;
 mod help;
 #[cfg(unix)]
 mod interrupt;

@@ -17,7 +17,7 @@ pub use history::{
     ActionRuns, Candidate, DrawnSurface, HISTORY_FILE, HISTORY_FORMAT, HISTORY_VERSION,
     HistoryDecision, HistoryMetrics, HistoryRecorder, HistoryStep, ObjectStep, RunHistory,
 };
-pub use observer::{NoObserver, Observer, StepView};
+pub use observer::{FilterInput, NoObserver, Observer, StepView};
 pub use planners::build_planner;
 pub use record::RunRecorder;
 pub(crate) use rest_object::{features_of, parted};

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::{HistoryRecorder, Observer, RunHistory, Setup, StepView};
 use crate::ExperimentError;
 use crate::metrics::RunSummary;
-use crate::output::{AtomicFile, FeaturesFile, LastFeatures, StepsFile, TumFile};
-use crate::scenario::PlannerName;
+use crate::output::{AtomicFile, FeaturesFile, LastFeatures, StepsFile, TumFile, TumTime};
+use crate::scenario::{LengthUnit, PlannerName};
 
 /// Writes a run into a folder. The files appear when the run has finished, all complete.
 #[derive(Debug)]
@@ -22,7 +22,8 @@ pub struct RunRecorder<'a> {
 }
 
 impl<'a> RunRecorder<'a> {
-    /// Begins to write the run of `planner` with `seed` into `folder`, which must exist.
+    /// Begins to write the run of `planner` with `seed` into `folder`, which must exist; the positions of the
+    /// trajectories in `unit`.
     ///
     /// # Errors
     /// [`ExperimentError::Output`].
@@ -31,16 +32,19 @@ impl<'a> RunRecorder<'a> {
         setup: &'a Setup,
         planner: PlannerName,
         seed: u64,
+        unit: LengthUnit,
     ) -> Result<Self, ExperimentError> {
         let feature_count = setup.world.rest.len();
+        let trajectory =
+            |name: &str| TumFile::create(&folder.join(name), TumTime::Step, LengthUnit::Cm, unit);
         Ok(Self {
             folder: folder.to_owned(),
             history: HistoryRecorder::new(setup, planner, seed),
             summary: AtomicFile::create(&folder.join("summary.json"))?,
             steps: StepsFile::create(&folder.join("steps.csv"), feature_count)?,
             features: FeaturesFile::create(&folder.join("features.csv"), feature_count)?,
-            truth: TumFile::create(&folder.join("truth.tum"))?,
-            estimate: TumFile::create(&folder.join("estimate.tum"))?,
+            truth: trajectory("truth.tum")?,
+            estimate: trajectory("estimate.tum")?,
             last: LastFeatures::default(),
         })
     }

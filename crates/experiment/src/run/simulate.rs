@@ -12,7 +12,7 @@ use adslam_surface::Surface;
 use nalgebra::{Matrix6, Vector3};
 
 use super::name::RunName;
-use super::{Interrupt, Observer, RunHistory, Setup, StepView, build_planner};
+use super::{FilterInput, Interrupt, Observer, RunHistory, Setup, StepView, build_planner};
 use crate::ExperimentError;
 use crate::metrics::{DriftFloor, RunSummary, SummaryBuilder, measure_step};
 use crate::scenario::PlannerName;
@@ -78,11 +78,31 @@ struct Sight {
     surface_distance: f64,
 }
 
-/// A decision and how long it took, ms.
+/// A decision, how long it took in ms, and what came of it.
 struct Decided {
     decision: Decision,
     milliseconds: f64,
+    feature_motion: Vec<Vector3<f64>>,
+    measured: Measured,
     update: UpdateReport,
+}
+
+/// What the filter is let know of a step's measurements.
+struct Measured {
+    features: Vec<FeatureMeasurement>,
+    structure_sums: Option<Vec<Vector3<f64>>>,
+}
+
+impl Measured {
+    fn measurements(&self) -> Measurements<'_> {
+        Measurements {
+            features: &self.features,
+            structure: match &self.structure_sums {
+                Some(sums) => StructureMeasurements::AllPairsSummed(sums),
+                None => StructureMeasurements::None,
+            },
+        }
+    }
 }
 
 impl<'a> Run<'a> {
@@ -141,46 +161,52 @@ impl<'a> Run<'a> {
         self.world.advance(&decision.control);
         self.drift_floor.advance();
         self.sight = Sight::of(&self.world, self.setup, &self.name)?;
+        let measured = self.measure();
         let update = self
-            .filter(&decision.control, &feature_motion)
+            .filter(&decision.control, &feature_motion, &measured)
             .map_err(self.name.filter_failed(n + 1))?;
         Ok(Decided {
             decision,
             milliseconds,
+            feature_motion,
+            measured,
             update,
         })
     }
 
-    /// Algorithm 1, with what the world lets the robot measure.
-    fn filter(
-        &mut self,
-        control: &Control,
-        feature_motion: &[Vector3<f64>],
-    ) -> Result<UpdateReport, EstimatorError> {
-        let measured = self.world.measure(&self.sight.visible);
-        let features: Vec<FeatureMeasurement> = measured
+    /// What the world lets the robot measure, as far as the scenario lets the filter know it.
+    fn measure(&mut self) -> Measured {
+        let simulated = self.world.measure(&self.sight.visible);
+        let features: Vec<FeatureMeasurement> = simulated
             .features
             .iter()
             .map(|&(feature, z)| FeatureMeasurement { feature, z })
             .collect();
         self.sight.visible = features.iter().map(|measured| measured.feature).collect();
         let takes_structure = self.setup.planning.measures_structure;
-        let mut faults = measured.faults;
+        let mut faults = simulated.faults;
         if !takes_structure {
             faults.dropped_structures = 0;
         }
         self.builder.add_faults(faults);
-        let structure = match &measured.structure_sums {
-            Some(sums) if takes_structure => StructureMeasurements::AllPairsSummed(sums),
-            _ => StructureMeasurements::None,
-        };
-        let measurements = Measurements {
-            features: &features,
-            structure,
-        };
+        let structure_sums = simulated.structure_sums.filter(|_| takes_structure);
+        Measured {
+            features,
+            structure_sums,
+        }
+    }
+
+    /// Algorithm 1.
+    fn filter(
+        &mut self,
+        control: &Control,
+        feature_motion: &[Vector3<f64>],
+        measured: &Measured,
+    ) -> Result<UpdateReport, EstimatorError> {
         self.estimator
             .predict(&mut self.belief, control, feature_motion)?;
-        self.estimator.update(&mut self.belief, &measurements)
+        self.estimator
+            .update(&mut self.belief, &measured.measurements())
     }
 
     /// Adds the present step to the summary and shows it to the observer.
@@ -218,6 +244,11 @@ impl<'a> Run<'a> {
             belief,
             visible: &sight.visible,
             metrics: &metrics,
+            input: decided.map(|decided| FilterInput {
+                control: &decided.decision.control,
+                feature_motion: &decided.feature_motion,
+                measurements: decided.measured.measurements(),
+            }),
             update: decided.map(|decided| &decided.update),
             drift_floor,
             surface_distance: sight.surface_distance,
