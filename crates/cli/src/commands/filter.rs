@@ -71,6 +71,7 @@ fn filter_all(
             reason.message()
         )]);
     }
+    answer.warn(&summary.warnings);
     answer.set("steps", summary.steps);
     answer.set("features", summary.features);
     answer.set("rejected_measurements", summary.rejected);

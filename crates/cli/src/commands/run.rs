@@ -9,9 +9,6 @@ use indicatif::ProgressBar;
 use crate::answer::Answer;
 use crate::{RunArgs, progress};
 
-const UNSEEN: &str = "the robot saw no feature in the whole run; is the object where it should be? \
-    adslam replay shows it";
-
 /// Runs one planner once and writes the run into a folder.
 ///
 /// # Errors
@@ -45,12 +42,10 @@ fn run_once(
     if args.html {
         adslam_replay::write_html(&[observer.recorder.history()], &page)?;
     }
-    let mut files = observer.recorder.commit(&outcome.summary)?;
+    let warnings = [setup.warnings.as_slice(), &outcome.warnings].concat();
+    let mut files = observer.recorder.commit(&outcome.summary, &warnings)?;
     files.extend(args.html.then_some(page));
     let summary = &outcome.summary;
-    if summary.observed == 0 {
-        answer.warn(&[UNSEEN.to_owned()]);
-    }
     let coverage = summary
         .steps_to_full_coverage
         .map_or("not all seen".to_owned(), |step| {

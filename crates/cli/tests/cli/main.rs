@@ -33,3 +33,4 @@ mod support;
 mod sweep;
 mod sweep_folder;
 mod tables;
+mod warnings;

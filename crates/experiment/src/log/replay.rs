@@ -15,7 +15,7 @@ use super::read::LogReader;
 use crate::ExperimentError;
 use crate::diagnostics::InputError;
 use crate::output::AtomicFile;
-use crate::run::{Interrupt, gate};
+use crate::run::{GateWatch, Interrupt, gate};
 use crate::scenario::EstimatorName;
 use crate::scenario::values::GateProbability;
 
@@ -56,6 +56,8 @@ pub struct ReplaySummary {
     pub features: usize,
     /// Feature measurements that the gate kept out.
     pub rejected: usize,
+    /// What the user should know of it.
+    pub warnings: Vec<String>,
     /// Why it ended before the end of the log, with [`TailPolicy::KeepComplete`].
     pub stopped_by: Option<InputError>,
 }
@@ -192,24 +194,29 @@ pub fn filter_log(
         steps: 0,
         features,
         rejected: 0,
+        warnings: Vec::new(),
         stopped_by: None,
     };
+    let mut gate_watch = GateWatch::default();
     loop {
         if interrupt.requested() {
             return Err(ExperimentError::Interrupted);
         }
         let step = match replay.advance() {
             Ok(Some(step)) => step,
-            Ok(None) => return Ok(summary),
+            Ok(None) => break,
             Err(ExperimentError::Input(error)) if policy == TailPolicy::KeepComplete => {
                 summary.stopped_by = Some(error);
-                return Ok(summary);
+                break;
             }
             Err(error) => return Err(error),
         };
         out.add_json_line(&replay.estimates(step))?;
         summary.steps += 1;
         summary.rejected += replay.report.rejected;
+        gate_watch.add(step, &replay.report);
         progress();
     }
+    summary.warnings.extend(gate_watch.warning());
+    Ok(summary)
 }
