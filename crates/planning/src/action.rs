@@ -5,6 +5,12 @@ use std::collections::HashMap;
 use adslam_models::{Control, EulerAngles};
 use nalgebra::Vector3;
 
+/// The control that changes nothing.
+const STAYING: Control = Control {
+    rotation: Vector3::new(0.0, 0.0, 0.0),
+    translation: Vector3::new(0.0, 0.0, 0.0),
+};
+
 /// The controls that the robot may choose from, and the attitudes that it must keep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ActionSet {
@@ -14,6 +20,8 @@ pub struct ActionSet {
     /// For each action which of the distinct translations it has.
     positions: Vec<usize>,
     position_count: usize,
+    /// The action that changes nothing, where there is one.
+    staying: Option<usize>,
 }
 
 impl ActionSet {
@@ -47,13 +55,21 @@ impl ActionSet {
             }
         }
         let (positions, position_count) = distinct_translations(&controls);
+        let staying = controls.iter().position(|control| *control == STAYING);
         Self {
             controls,
             max_roll,
             max_pitch,
             positions,
             position_count,
+            staying,
         }
+    }
+
+    /// Staying where one is, which a robot always can, and its place in the set if it is there.
+    #[must_use]
+    pub fn staying(&self) -> (Option<usize>, Control) {
+        (self.staying, STAYING)
     }
 
     /// How many distinct positions the actions lead to.
@@ -103,6 +119,15 @@ fn distinct_translations(controls: &[Control]) -> (Vec<usize>, usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn staying_is_found_where_the_set_has_it() {
+        let (still, turned) = ([0.0], [0.0, 0.5]);
+        let with = ActionSet::grid([&still, &still, &turned], [&[-0.1, 0.0], &still], 1.0, 1.0);
+        assert_eq!(with.staying(), (Some(1), with.controls()[1]));
+        let without = ActionSet::grid([&still, &still, &still], [&[-0.1, 0.1], &still], 1.0, 1.0);
+        assert_eq!(without.staying(), (None, STAYING));
+    }
 
     #[test]
     fn the_papers_set_has_675_actions() {

@@ -81,6 +81,7 @@ fn filter_all(
             reason.message()
         )]);
     }
+    answer.warn(&summary.warnings);
     answer.set("steps", summary.steps);
     answer.set("features", summary.features);
     answer.set("estimator", summary.estimator);

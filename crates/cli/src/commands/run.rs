@@ -10,9 +10,6 @@ use indicatif::ProgressBar;
 use crate::answer::Answer;
 use crate::{RunArgs, progress};
 
-const UNSEEN: &str = "the robot saw no feature in the whole run; is the object where it should be? \
-    adslam replay shows it";
-
 /// Runs one planner once and writes the run into a folder.
 ///
 /// # Errors
@@ -49,13 +46,11 @@ fn run_once(
         adslam_replay::write_html(&[observer.recorder.history()], &page)?;
     }
     let log = observer.log.map(LogRecorder::commit).transpose()?;
-    let mut files = observer.recorder.commit(&outcome.summary)?;
+    let warnings = [setup.warnings.as_slice(), &outcome.warnings].concat();
+    let mut files = observer.recorder.commit(&outcome.summary, &warnings)?;
     files.extend(log);
     files.extend(args.html.then_some(page));
     let summary = &outcome.summary;
-    if summary.observed == 0 {
-        answer.warn(&[UNSEEN.to_owned()]);
-    }
     let coverage = summary
         .steps_to_full_coverage
         .map_or("not all seen".to_owned(), |step| {

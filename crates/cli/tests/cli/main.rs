@@ -36,3 +36,4 @@ mod support;
 mod sweep;
 mod sweep_folder;
 mod tables;
+mod warnings;

@@ -10,8 +10,8 @@ use super::{ConsistencyPlan, ConsistencyRecord, Judgement, Measure, markdown};
 use crate::ExperimentError;
 use crate::metrics::RunSummary;
 use crate::output::{AtomicFile, Column, ColumnKind, TableFile};
+use crate::run::warnings::merged;
 use crate::scenario::{EstimatorName, Named, PlannerName};
-use crate::study::points::distinct;
 
 /// What a consistency study gave: made of its records alone.
 #[derive(Clone, Debug, Serialize)]
@@ -124,11 +124,11 @@ impl ConsistencyResults {
             runs: plan.runs,
             first_seed: plan.first_seed,
             cells: cells.collect(),
-            warnings: distinct(
+            warnings: merged(
                 records
                     .iter()
                     .flatten()
-                    .flat_map(|record| record.warnings.iter().cloned()),
+                    .map(|record| record.warnings.as_slice()),
             ),
         }
     }

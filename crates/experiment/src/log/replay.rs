@@ -255,7 +255,7 @@ pub fn filter_log(
             Err(error) => return Err(error),
         };
         each(&replay.estimates(step))?;
-        sums.add_update(&replay.report);
+        sums.add_update(step, &replay.report);
         sums.add_metrics(replay.metrics.as_ref());
     }
 }

@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::format::LogHeader;
 use crate::diagnostics::InputError;
 use crate::metrics::{RunSummary, StepMetrics, SummaryBuilder};
+use crate::run::GateWatch;
 use crate::scenario::values::GateProbability;
 use crate::scenario::{EstimatorName, LengthUnit, Named};
 
@@ -24,6 +25,8 @@ pub struct ReplaySummary {
     pub gate_probability: Option<GateProbability>,
     /// Consistency, and errors where the log has a truth.
     pub numbers: ReplayNumbers,
+    /// What the user should know of it.
+    pub warnings: Vec<String>,
     /// Why it ended before the end of the log, with [`TailPolicy::KeepComplete`](super::TailPolicy).
     pub stopped_by: Option<InputError>,
 }
@@ -62,6 +65,7 @@ pub(super) struct SummingUp {
     builder: SummaryBuilder,
     has_truth: bool,
     summary: ReplaySummary,
+    gate_watch: GateWatch,
 }
 
 impl SummingUp {
@@ -85,8 +89,10 @@ impl SummingUp {
                     rejected_measurements: 0,
                     errors: None,
                 },
+                warnings: Vec::new(),
                 stopped_by: None,
             },
+            gate_watch: GateWatch::default(),
         }
     }
 
@@ -100,9 +106,10 @@ impl SummingUp {
         }
     }
 
-    /// Adds what an update said about the filter.
-    pub(super) fn add_update(&mut self, report: &UpdateReport) {
+    /// Adds what the update at a step said about the filter.
+    pub(super) fn add_update(&mut self, step: u64, report: &UpdateReport) {
         self.summary.steps += 1;
+        self.gate_watch.add(step, report);
         self.builder.add_update(report);
     }
 
@@ -116,6 +123,7 @@ impl SummingUp {
                 rejected_measurements: run.rejected_measurements,
                 errors: self.has_truth.then(|| ReplayErrors::from(&run)),
             },
+            warnings: self.gate_watch.warning().into_iter().collect(),
             stopped_by,
             ..self.summary
         }

@@ -1,6 +1,7 @@
 //! One run in a few numbers: RUN of tables.json.
 
 use adslam_estimator::{Nis, UpdateReport};
+use adslam_planning::Decision;
 use serde::{Deserialize, Serialize};
 
 use super::DecisionTimes;
@@ -54,6 +55,12 @@ pub struct RunSummary {
     pub steps_below_clearance: usize,
     /// Decisions for which no action was safe.
     pub compromised_decisions: usize,
+    /// Decisions for controls beyond the limits of roll and pitch, as no action kept them.
+    #[serde(default)]
+    pub limits_waived_decisions: usize,
+    /// How often a viewpoint was given up, as the robot came no nearer to it.
+    #[serde(default)]
+    pub abandoned_viewpoints: usize,
     /// What went wrong with measurements; absent where the scenario lets nothing go wrong.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub faults: Option<FaultCounts>,
@@ -81,6 +88,8 @@ pub struct SummaryBuilder {
     inside: usize,
     below_clearance: usize,
     compromised: usize,
+    limits_waived: usize,
+    abandoned: usize,
     faults: Option<FaultCounts>,
     decision_ms: Vec<f64>,
 }
@@ -150,9 +159,11 @@ impl SummaryBuilder {
     }
 
     /// Adds a decision that took this long.
-    pub fn add_decision(&mut self, milliseconds: f64, compromised: bool) {
+    pub fn add_decision(&mut self, milliseconds: f64, decision: &Decision) {
         self.decision_ms.push(milliseconds);
-        self.compromised += usize::from(compromised);
+        self.compromised += usize::from(decision.compromised);
+        self.limits_waived += usize::from(decision.limits_waived);
+        self.abandoned += usize::from(decision.abandoned.is_some());
     }
 
     /// Adds what an update said about the filter.
@@ -192,6 +203,8 @@ impl SummaryBuilder {
             steps_inside_object: self.inside,
             steps_below_clearance: self.below_clearance,
             compromised_decisions: self.compromised,
+            limits_waived_decisions: self.limits_waived,
+            abandoned_viewpoints: self.abandoned,
             faults: self.faults,
             decision_ms: DecisionTimes::of(self.decision_ms),
         }
@@ -205,6 +218,9 @@ fn per_dof(nis: Nis) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use adslam_models::Control;
+    use nalgebra::Point3;
+
     use super::*;
 
     fn metrics(error: f64) -> StepMetrics {
@@ -227,8 +243,15 @@ mod tests {
         builder.add_step(1, [0], &metrics(0.0), 1.0, 0.3);
         builder.add_step(2, [0], &metrics(0.3), 0.2, 0.3);
         builder.add_step(3, [0, 1], &metrics(0.6), -0.1, 0.3);
-        builder.add_decision(1.0, false);
-        builder.add_decision(3.0, true);
+        let decision = Decision::without_choice(Control::default());
+        builder.add_decision(1.0, &decision);
+        let compromise = Decision {
+            compromised: true,
+            limits_waived: true,
+            abandoned: Some((0, Point3::origin())),
+            ..decision
+        };
+        builder.add_decision(3.0, &compromise);
         for value in [3.0, 9.0] {
             builder.add_update(&UpdateReport {
                 features: Nis { value, dof: 6 },
@@ -258,6 +281,10 @@ mod tests {
         assert_eq!(run.structure_nis_per_dof, None);
         assert_eq!(run.rejected_measurements, 4);
         assert_eq!(run.compromised_decisions, 1);
+        assert_eq!(
+            (run.limits_waived_decisions, run.abandoned_viewpoints),
+            (1, 1)
+        );
         assert_eq!(
             run.decision_ms,
             DecisionTimes {

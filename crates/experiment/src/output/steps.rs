@@ -73,6 +73,8 @@ struct Row {
     safe_actions: Option<usize>,
     scored_actions: Option<usize>,
     compromised: Option<u8>,
+    limits_waived: Option<u8>,
+    abandoned_goal_number: Option<usize>,
     decision_time_ms: Option<f64>,
 }
 
@@ -175,6 +177,8 @@ impl StepsFile {
             safe_actions: decision.map(|d| d.safe),
             scored_actions: decision.map(|d| d.scored),
             compromised: decision.map(|d| u8::from(d.compromised)),
+            limits_waived: decision.map(|d| u8::from(d.limits_waived)),
+            abandoned_goal_number: decision.and_then(|d| Some(d.abandoned?.0)),
             decision_time_ms: view.decision.map(|(_, ms)| ms),
         }
     }

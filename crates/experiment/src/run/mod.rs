@@ -11,6 +11,9 @@ mod rest_object;
 mod setup;
 mod shared_objects;
 mod simulate;
+mod start;
+pub(crate) mod warnings;
+mod watch;
 
 pub use batch::{Batch, BatchResult, Interrupt, Progress};
 pub use history::{
@@ -24,3 +27,4 @@ pub(crate) use rest_object::{features_of, parted};
 pub use setup::Setup;
 pub(crate) use setup::gate;
 pub use simulate::{RunOutcome, simulate};
+pub(crate) use watch::GateWatch;

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
+
 use super::{HistoryRecorder, Observer, RunHistory, Setup, StepView};
 use crate::ExperimentError;
 use crate::metrics::RunSummary;
@@ -19,6 +21,14 @@ pub struct RunRecorder<'a> {
     truth: TumFile,
     estimate: TumFile,
     last: LastFeatures,
+}
+
+/// summary.json.
+#[derive(Serialize)]
+struct SummaryFile<'a> {
+    #[serde(flatten)]
+    summary: &'a RunSummary,
+    warnings: &'a [String],
 }
 
 impl<'a> RunRecorder<'a> {
@@ -56,12 +66,16 @@ impl<'a> RunRecorder<'a> {
     }
 
     /// Completes all files and returns their paths. summary.json comes last: where it is, the others
-    /// are.
+    /// are. It has the `warnings` beside the summary.
     ///
     /// # Errors
     /// [`ExperimentError::Output`].
-    pub fn commit(mut self, summary: &RunSummary) -> Result<Vec<PathBuf>, ExperimentError> {
-        self.summary.add_json(summary)?;
+    pub fn commit(
+        mut self,
+        summary: &RunSummary,
+        warnings: &[String],
+    ) -> Result<Vec<PathBuf>, ExperimentError> {
+        self.summary.add_json(&SummaryFile { summary, warnings })?;
         let files = vec![
             self.steps.finish()?,
             self.features.finish(&self.last)?,

@@ -6,12 +6,12 @@ use adslam_deformation::ObjectMotion;
 use adslam_estimator::{Estimator, EstimatorError, EstimatorKind, FilterNoise, Parallelism};
 use adslam_models::{Control, EulerAngles, Pose, Sensor};
 use adslam_planning::{ActionSet, PlanningModel};
-use adslam_surface::{Mesh, Surface, Topology};
+use adslam_surface::{Mesh, Topology};
 use nalgebra::{Point3, Vector3};
 
-use super::rest_object::{RestObject, blamed};
+use super::rest_object::RestObject;
 use crate::diagnostics::InputError;
-use crate::scenario::{self, PlannerName, Scenario, Structure, Viewpoints, values};
+use crate::scenario::{self, PlannerName, Scenario, Structure, values};
 use crate::statistics::chi_squared;
 use crate::world::{DeformationNoise, Faults, WorldModel, WorldNoise};
 
@@ -157,81 +157,6 @@ impl Setup {
             .map(|rest| self.known_motion.feature_motion(rest, n))
             .collect()
     }
-
-    /// Looks at the start: a robot inside the object is refused; one too near, and features that
-    /// can never be seen, are worth a warning.
-    fn checked(mut self) -> Result<Self, InputError> {
-        let at_start: Vec<Point3<f64>> = self
-            .world
-            .rest
-            .iter()
-            .map(|p| p + self.world.motion.offset(p, 1))
-            .collect();
-        let surface = Surface::new(&self.planning.topology, &at_start)
-            .map_err(|error| blamed(&self.scenario, "object", &error))?;
-        let distance = surface.signed_distance(&self.world.start.position);
-        if distance <= 0.0 {
-            let message = format!(
-                "the robot starts {:.3} cm inside the object, where it can neither move nor see",
-                -distance
-            );
-            return Err(self
-                .scenario
-                .error_at("robot.start_cm", message)
-                .with_help("move the start, or the object, so that the robot is outside"));
-        }
-        self.check_viewpoints(&surface)?;
-        let clearance = self.planning.clearance;
-        if distance <= clearance {
-            self.warnings.push(format!(
-                "{}: the robot starts {distance:.3} cm from the object, nearer than its clearance \
-                 of {clearance} cm; it may have no safe action at first",
-                self.name
-            ));
-        }
-        let hidden = self.planning.topology.points_off_surface();
-        if !hidden.is_empty() {
-            self.warnings.push(format!(
-                "{}: features {} are not on the object's surface and will never be seen",
-                self.name,
-                numbers(hidden)
-            ));
-        }
-        Ok(self)
-    }
-}
-
-impl Setup {
-    /// A viewpoint inside the object cannot be visited.
-    fn check_viewpoints(&self, surface: &Surface) -> Result<(), InputError> {
-        let inside = |p: &Point3<f64>| surface.signed_distance(p) <= 0.0;
-        match &self.scenario.viewpoints {
-            Viewpoints::Fixed(fixed) => {
-                let Some(i) = fixed.positions_cm.iter().position(|p| inside(&p.point())) else {
-                    return Ok(());
-                };
-                let key = format!("viewpoints.fixed.positions_cm[{i}]");
-                Err(self
-                    .scenario
-                    .error_at(&key, "this viewpoint lies inside the object")
-                    .with_help("move it outside"))
-            }
-            Viewpoints::Sampled(grid) => {
-                let candidates = grid.candidates();
-                if !candidates.iter().all(inside) {
-                    return Ok(());
-                }
-                let message = format!(
-                    "none of the {} viewpoint candidates lies outside the object",
-                    candidates.len()
-                );
-                Err(self
-                    .scenario
-                    .error_at("viewpoints.sampled", message)
-                    .with_help("widen the grid, or make it finer"))
-            }
-        }
-    }
 }
 
 /// The squared distance that good measurements of a feature keep with this probability.
@@ -288,18 +213,4 @@ fn action_set(actions: &scenario::Actions) -> ActionSet {
         actions.max_roll_deg.to_radians(),
         actions.max_pitch_deg.to_radians(),
     )
-}
-
-/// A list of numbers for a message, cut where it gets long.
-pub(super) fn numbers(values: impl IntoIterator<Item = usize>) -> String {
-    const SHOWN: usize = 12;
-    let values: Vec<usize> = values.into_iter().collect();
-    let shown: Vec<String> = values.iter().take(SHOWN).map(ToString::to_string).collect();
-    let rest = values.len().saturating_sub(SHOWN);
-    let more = if rest == 0 {
-        String::new()
-    } else {
-        format!(" and {rest} more")
-    };
-    format!("{}{more}", shown.join(", "))
 }

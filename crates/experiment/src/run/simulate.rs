@@ -12,6 +12,7 @@ use adslam_surface::Surface;
 use nalgebra::{Matrix6, Vector3};
 
 use super::name::RunName;
+use super::watch::RunWatch;
 use super::{FilterInput, Interrupt, Observer, RunHistory, Setup, StepView, build_planner};
 use crate::ExperimentError;
 use crate::metrics::{DriftFloor, RunSummary, SummaryBuilder, measure_step};
@@ -23,7 +24,8 @@ use crate::world::World;
 pub struct RunOutcome {
     /// Its numbers.
     pub summary: RunSummary,
-    /// What its user should know, such as features that no viewpoint sees.
+    /// What its user should know, such as features that no viewpoint sees. What stands in brackets at the end of a
+    /// warning may differ from run to run.
     pub warnings: Vec<String>,
     /// Every step of it, where a [`Batch`](super::Batch) was to record it.
     pub history: Option<RunHistory>,
@@ -42,7 +44,7 @@ pub fn simulate(
     observer: &mut dyn Observer,
 ) -> Result<RunOutcome, ExperimentError> {
     let name = RunName(format!("{}, {planner}, seed {seed}", setup.name));
-    let (mut run, warnings) = Run::start(setup, name, planner, seed)?;
+    let (mut run, mut warnings) = Run::start(setup, name, planner, seed)?;
     run.observe(None, observer)?;
     for _ in 1..setup.steps {
         if interrupt.requested() {
@@ -51,6 +53,7 @@ pub fn simulate(
         let decided = run.advance()?;
         run.observe(Some(&decided), observer)?;
     }
+    warnings.extend(run.watch.warnings());
     Ok(RunOutcome {
         summary: run.builder.finish(seed),
         warnings,
@@ -68,6 +71,7 @@ struct Run<'a> {
     belief: Belief,
     planner: Box<dyn Planner>,
     builder: SummaryBuilder,
+    watch: RunWatch,
     drift_floor: DriftFloor,
     deadline_ms: Option<f64>,
 }
@@ -120,6 +124,7 @@ impl<'a> Run<'a> {
         let belief = Belief::initial(setup.world.start, features, &Matrix6::zeros(), sigma)
             .map_err(name.filter_failed(1))?;
         let deadline_ms = setup.scenario.deadline_ms(planner);
+        let watch = RunWatch::new(setup, planner);
         let (planner, warnings) =
             build_planner(setup, planner, &belief, seed).map_err(name.planner_failed(1))?;
         let run = Self {
@@ -127,6 +132,7 @@ impl<'a> Run<'a> {
             sight: Sight::of(&world, setup, &name)?,
             builder: SummaryBuilder::new(world.features().len())
                 .with_faults(setup.world.faults.can_happen()),
+            watch,
             drift_floor: DriftFloor::at_start(&setup.world.noise, world.features().len()),
             name,
             world,
@@ -234,10 +240,10 @@ impl<'a> Run<'a> {
         self.builder.add_drift_floor(drift_floor);
         if let Some(decided) = decided {
             self.builder
-                .add_decision(decided.milliseconds, decided.decision.compromised);
+                .add_decision(decided.milliseconds, &decided.decision);
             self.builder.add_update(&decided.update);
         }
-        observer.step(&StepView {
+        let view = StepView {
             step,
             pose: world.pose(),
             features: world.features(),
@@ -255,7 +261,9 @@ impl<'a> Run<'a> {
             decision: decided.map(|decided| (&decided.decision, decided.milliseconds)),
             scores: self.planner.scores(),
             viewpoints: self.planner.viewpoints(),
-        })
+        };
+        self.watch.step(&view);
+        observer.step(&view)
     }
 }
 

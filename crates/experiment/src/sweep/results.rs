@@ -10,9 +10,9 @@ use super::point::{PlannerMetrics, PointStatistics};
 use super::{SweepPlan, SweepRecord, markdown};
 use crate::ExperimentError;
 use crate::output::{AtomicFile, Column, ColumnKind, TableFile};
+use crate::run::warnings::merged;
 use crate::scenario::Named;
 use crate::statistics::MeanEstimate;
-use crate::study::points::distinct;
 
 /// What a sweep gave: made of its records alone, the same whenever and in whatever order they were written.
 pub struct SweepResults<'a> {
@@ -60,7 +60,7 @@ impl<'a> SweepResults<'a> {
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let done = self.records.iter().flatten();
-        distinct(done.flat_map(|record| record.warnings.iter().cloned()))
+        merged(done.map(|record| record.warnings.as_slice()))
     }
 
     /// Writes all tables into `folder` and returns their paths: runs, table and comparisons in the formats of

@@ -6,6 +6,7 @@ use crate::ExperimentError;
 use crate::config::{Config, ExperimentPlan, PublishedScenario, Selection};
 use crate::diagnostics::InputError;
 use crate::metrics::RunSummary;
+use crate::run::warnings::merged;
 use crate::run::{Batch, BatchResult, Interrupt, RunHistory, RunOutcome, Setup};
 use crate::scenario::PlannerName;
 
@@ -177,6 +178,7 @@ impl TablePlan {
         for (plan, setup) in &self.experiments {
             tables.warn(setup.warnings.iter().cloned());
             let mut histories = Vec::new();
+            let mut of_runs = Vec::new();
             let planners = plan.planners.iter().map(|&planner| {
                 let mut runs = Vec::with_capacity(self.runs);
                 for result in results.by_ref().take(self.runs) {
@@ -184,11 +186,13 @@ impl TablePlan {
                         continue;
                     };
                     runs.push(outcome.summary);
+                    of_runs.push(outcome.warnings);
                     histories.extend(outcome.history);
                 }
                 PlannerRuns { planner, runs }
             });
             let planners = planners.collect();
+            tables.warn(merged(of_runs.iter().map(Vec::as_slice)));
             tables.experiments.push(ExperimentTables {
                 label: plan.label.clone(),
                 steps: setup.steps,
@@ -205,10 +209,7 @@ impl Tables {
     /// A run of the experiment `label` that finished; notes what became of any other.
     fn sort_in(&mut self, label: &str, result: BatchResult) -> Option<RunOutcome> {
         match result {
-            Ok(outcome) => {
-                self.warn(outcome.warnings.iter().cloned());
-                Some(outcome)
-            }
+            Ok(outcome) => Some(outcome),
             Err(ExperimentError::Interrupted) => {
                 self.interrupted = true;
                 None
@@ -235,7 +236,7 @@ impl Tables {
         ExperimentError::unless_complete(self.interrupted, self.failures)
     }
 
-    /// Adds warnings that are not there yet: every seed of a scenario may give the same.
+    /// Adds warnings that are not there yet: two experiments may give the same.
     fn warn(&mut self, warnings: impl IntoIterator<Item = String>) {
         for warning in warnings {
             if !self.warnings.contains(&warning) {

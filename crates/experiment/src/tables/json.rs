@@ -17,6 +17,8 @@ struct TablesJson<'a> {
     runs: usize,
     /// Fewer runs may have finished than were asked for.
     complete: bool,
+    /// What the user should know of the runs.
+    warnings: &'a [String],
     scenarios: BTreeMap<&'a str, ScenarioJson<'a>>,
     published: BTreeMap<&'a str, PublishedJson>,
 }
@@ -65,6 +67,7 @@ pub fn write_json(tables: &Tables, file: &mut AtomicFile) -> Result<(), Experime
         title: &tables.title,
         runs: tables.runs,
         complete: tables.is_complete(),
+        warnings: &tables.warnings,
         scenarios: scenarios.collect(),
         published: published.collect(),
     };

@@ -33,6 +33,8 @@ fn record(seed: u64, offset: f64) -> SweepRecord {
         steps_inside_object: 0,
         steps_below_clearance: 0,
         compromised_decisions: 0,
+        limits_waived_decisions: 0,
+        abandoned_viewpoints: 0,
         decision_ms: DecisionTimes::default(),
     };
     let warnings = vec!["polygon: no viewpoint sees features 3".to_owned()];
