@@ -320,11 +320,11 @@ fn truths_and_filters_that_cannot_be() {
     let far = json!({"pose": [0, 0, 0, 0, 0, 0], "features": [[1e300, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0]]});
     refused_with(3, "/truth", Some(far), &["the error is not finite"]);
     let words = [
-        "no estimator is called \"so3\"",
+        "no estimator is called \"so3_efk\"",
         "did you mean so3_ekf?",
         "--estimator",
     ];
-    refused_with(1, "/filter", Some(json!({"estimator": "so3"})), &words);
+    refused_with(1, "/filter", Some(json!({"estimator": "so3_efk"})), &words);
     for probability in [0.0, 1.0, -2.0] {
         let filter = json!({"gate_probability": probability});
         refused_with(
