@@ -2,7 +2,9 @@
 
 use adslam_experiment::ExperimentError;
 use adslam_experiment::output::prepare_folder;
-use adslam_experiment::run::{Interrupt, Observer, RunRecorder, Setup, StepView, simulate};
+use adslam_experiment::run::{
+    Interrupt, Observer, RunRecorder, RunReport, Setup, StepView, simulate,
+};
 use adslam_experiment::scenario::{Named, Scenario};
 use indicatif::ProgressBar;
 
@@ -43,9 +45,13 @@ fn run_once(
         adslam_replay::write_html(&[observer.recorder.history()], &page)?;
     }
     let warnings = [setup.warnings.as_slice(), &outcome.warnings].concat();
-    let mut files = observer.recorder.commit(&outcome.summary, &warnings)?;
-    files.extend(args.html.then_some(page));
     let summary = &outcome.summary;
+    let report = RunReport {
+        summary,
+        warnings: &warnings,
+    };
+    let mut files = observer.recorder.commit(&report)?;
+    files.extend(args.html.then_some(page));
     let coverage = summary
         .steps_to_full_coverage
         .map_or("not all seen".to_owned(), |step| {
@@ -53,7 +59,7 @@ fn run_once(
         });
     answer.set("scenario", &setup.name);
     answer.set("planner", args.planner.as_str());
-    answer.set("summary", summary);
+    answer.set("summary", report);
     answer.set_files(&files);
     answer.say(format_args!(
         "{}, {}, seed {}: observed {} feature times, {coverage}, mean pose error {:.3} (drift \
