@@ -3,7 +3,9 @@
 use adslam_experiment::ExperimentError;
 use adslam_experiment::log::LogRecorder;
 use adslam_experiment::output::prepare_folder;
-use adslam_experiment::run::{Interrupt, Observer, RunRecorder, Setup, StepView, simulate};
+use adslam_experiment::run::{
+    Interrupt, Observer, RunRecorder, RunReport, Setup, StepView, simulate,
+};
 use adslam_experiment::scenario::{Named, Scenario};
 use indicatif::ProgressBar;
 
@@ -47,10 +49,14 @@ fn run_once(
     }
     let log = observer.log.map(LogRecorder::commit).transpose()?;
     let warnings = [setup.warnings.as_slice(), &outcome.warnings].concat();
-    let mut files = observer.recorder.commit(&outcome.summary, &warnings)?;
+    let summary = &outcome.summary;
+    let report = RunReport {
+        summary,
+        warnings: &warnings,
+    };
+    let mut files = observer.recorder.commit(&report)?;
     files.extend(log);
     files.extend(args.html.then_some(page));
-    let summary = &outcome.summary;
     let coverage = summary
         .steps_to_full_coverage
         .map_or("not all seen".to_owned(), |step| {
@@ -58,7 +64,7 @@ fn run_once(
         });
     answer.set("scenario", &setup.name);
     answer.set("planner", args.planner.as_str());
-    answer.set("summary", summary);
+    answer.set("summary", report);
     answer.set_files(&files);
     answer.say(format_args!(
         "{}, {}, seed {}: observed {} feature times, {coverage}, mean pose error {:.3} (drift \

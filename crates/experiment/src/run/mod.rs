@@ -22,7 +22,7 @@ pub use history::{
 };
 pub use observer::{FilterInput, NoObserver, Observer, StepView};
 pub use planners::build_planner;
-pub use record::RunRecorder;
+pub use record::{RunRecorder, RunReport};
 pub(crate) use rest_object::{features_of, parted};
 pub use setup::Setup;
 pub(crate) use setup::gate;

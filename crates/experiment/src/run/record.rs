@@ -23,12 +23,14 @@ pub struct RunRecorder<'a> {
     last: LastFeatures,
 }
 
-/// summary.json.
-#[derive(Serialize)]
-struct SummaryFile<'a> {
+/// What summary.json holds.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct RunReport<'a> {
+    /// The run in a few numbers.
     #[serde(flatten)]
-    summary: &'a RunSummary,
-    warnings: &'a [String],
+    pub summary: &'a RunSummary,
+    /// What its user should know of it and of its scenario.
+    pub warnings: &'a [String],
 }
 
 impl<'a> RunRecorder<'a> {
@@ -66,16 +68,12 @@ impl<'a> RunRecorder<'a> {
     }
 
     /// Completes all files and returns their paths. summary.json comes last: where it is, the others
-    /// are. It has the `warnings` beside the summary.
+    /// are.
     ///
     /// # Errors
     /// [`ExperimentError::Output`].
-    pub fn commit(
-        mut self,
-        summary: &RunSummary,
-        warnings: &[String],
-    ) -> Result<Vec<PathBuf>, ExperimentError> {
-        self.summary.add_json(&SummaryFile { summary, warnings })?;
+    pub fn commit(mut self, report: &RunReport<'_>) -> Result<Vec<PathBuf>, ExperimentError> {
+        self.summary.add_json(report)?;
         let files = vec![
             self.steps.finish()?,
             self.features.finish(&self.last)?,

@@ -61,7 +61,7 @@ impl GoalWatch {
         let mut warnings = Vec::new();
         if self.times > 0 {
             warnings.push(format!(
-                "viewpoints were given up, as the robot came no nearer to them ({} times, the first at step {}; \
+                "viewpoints were given up, as the robot came no nearer to them ({} in all, the first at step {}; \
                  numbers {} of the path)",
                 self.times,
                 self.first_step,
@@ -136,7 +136,7 @@ mod tests {
             1,
             "giving up starts the count anew: {warnings:?}"
         );
-        let end = "(3 times, the first at step 10; numbers 3, 4 of the path)";
+        let end = "(3 in all, the first at step 10; numbers 3, 4 of the path)";
         assert!(warnings[0].ends_with(end), "{warnings:?}");
     }
 }
