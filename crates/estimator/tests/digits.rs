@@ -236,7 +236,7 @@ fn planned_traces_are_right_to_six_digits_or_refused() {
         };
         let direct = || {
             let isotropic = |&f| PlannedMeasurement::isotropic(f, noise.feature_measurement_sigma);
-            let planned: Vec<_> = visible.iter().map(isotropic).collect();
+            let planned = visible.iter().map(isotropic).collect::<Result<Vec<_>, _>>()?;
             let mut direct = DirectTrace::new(&belief, &motion, &noise, structure)?;
             direct.after(&control, &planned)
         };

@@ -1,4 +1,5 @@
 //! Algorithm 1's covariance in exact fractions: nothing is rounded, whatever the sigmas.
+#![allow(dead_code, reason = "each test file uses a part")]
 
 use adslam_estimator::{Belief, FeatureMeasurement, FilterNoise, PairMeasurement};
 use adslam_models::{Control, State, motion_jacobian};
@@ -96,6 +97,15 @@ pub fn updated(
 
 pub fn covariance(belief: &Belief) -> Exact {
     exact(&covariance_matrix(belief))
+}
+
+/// T P Tᵀ, rounded once at the end.
+pub fn between(t: &DMatrix<f64>, belief: &Belief) -> DMatrix<f64> {
+    let t = exact(t);
+    let all = product(&product(&t, &covariance(belief)), &transposed(&t));
+    DMatrix::from_fn(all.len(), all.len(), |i, j| {
+        all[i][j].to_f64().expect("a number")
+    })
 }
 
 pub fn trace(p: &Exact) -> f64 {
