@@ -126,7 +126,11 @@ fn changing_pair(criterion: &mut Criterion) {
             laplacian[(i, j)] = entry;
         }
         group.bench_function(BenchmarkId::new("eigenvectors", case.name), |bencher| {
-            bencher.iter(|| black_box(&laplacian).self_adjoint_eigen(Side::Lower).unwrap());
+            bencher.iter(|| {
+                black_box(&laplacian)
+                    .self_adjoint_eigen(Side::Lower)
+                    .unwrap()
+            });
         });
     }
 }

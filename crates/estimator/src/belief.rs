@@ -129,7 +129,10 @@ mod tests {
         );
         let said = error.to_string();
         assert!(said.contains("pitch and y (entries 1 and 4)"), "{said}");
-        assert!(checked(&[(2, 2, 0.0), (0, 2, 1e-20)]).is_err(), "of an exact angle");
+        assert!(
+            checked(&[(2, 2, 0.0), (0, 2, 1e-20)]).is_err(),
+            "of an exact angle"
+        );
     }
 
     #[test]
@@ -149,7 +152,10 @@ mod tests {
     fn a_negative_or_vast_sigma_is_refused() {
         for sigma in [-0.1, 1e200, 1e-200, f64::NAN] {
             let made = Belief::initial(Pose::default(), Vec::new(), &Matrix6::zeros(), sigma);
-            assert!(matches!(made, Err(EstimatorError::BadSigma { .. })), "{sigma}");
+            assert!(
+                matches!(made, Err(EstimatorError::BadSigma { .. })),
+                "{sigma}"
+            );
         }
     }
 }

@@ -44,7 +44,13 @@ fn any_noise(rng: &mut ChaCha8Rng) -> FilterNoise {
 
 /// An independent start with any sigmas.
 fn any_belief(rng: &mut ChaCha8Rng) -> Belief {
-    let sigmas = Vector6::from_fn(|k, _| if k < 3 { sigma(rng).min(3.0) } else { sigma(rng) });
+    let sigmas = Vector6::from_fn(|k, _| {
+        if k < 3 {
+            sigma(rng).min(3.0)
+        } else {
+            sigma(rng)
+        }
+    });
     let covariance = Matrix6::from_diagonal(&sigmas.map(|s| s * s));
     let pose = Pose::from_vector(&Vector6::from_fn(|_, _| rng.random_range(-1.0..1.0)));
     let features = (0..COUNT).map(|_| Point3::from(vector(rng, 5.0)));
@@ -100,7 +106,12 @@ fn any_sigmas_leave_six_right_digits_or_are_refused() {
                     z: feature_measurement(&predicted.pose, &predicted.features[i]),
                 })
                 .collect();
-            let list = [vec![], vec![(0, 1)], vec![(0, 2), (1, 2)], every_pair(COUNT)];
+            let list = [
+                vec![],
+                vec![(0, 1)],
+                vec![(0, 2), (1, 2)],
+                every_pair(COUNT),
+            ];
             let pairs = pairs(&list[rng.random_range(0..4)], &mut rng);
             let structure = StructureMeasurements::Pairs(&pairs);
             let features = &seen;
@@ -126,7 +137,10 @@ fn any_sigmas_leave_six_right_digits_or_are_refused() {
         }
     }
     println!("{right} right to {largest:e}, {refused} refused");
-    assert!(right > 200 && refused > 50, "{right} right, {refused} refused");
+    assert!(
+        right > 200 && refused > 50,
+        "{right} right, {refused} refused"
+    );
 }
 
 /// Features known to `prior` and a pose known to 1 mm and 0.01 rad, after one update.
@@ -171,7 +185,10 @@ fn updated(
     let error = (DVector::from_vec(found) - &delta).amax() / delta.amax();
     assert!(error < RIGHT, "the estimate is off by {error:e}");
     assert!(report.features.value.is_finite() && report.structure.value.is_finite());
-    Ok((exact::relative_error(&belief, &expected), report.features.value))
+    Ok((
+        exact::relative_error(&belief, &expected),
+        report.features.value,
+    ))
 }
 
 /// Unknown features become known by what is seen of them: in stages, where one update would leave a variance of
@@ -203,9 +220,15 @@ fn differences_of_unknown_positions_are_refused_beyond_what_numbers_hold() {
         };
         for (prior, sigma) in [(1e4, 1e-3), (1e5, 1e-3), (1e7, 1e-2), (1e6, 1e-9)] {
             let error = with(prior, sigma).unwrap_err();
-            assert!(matches!(error, EstimatorError::TooPrecise { .. }), "{error}");
+            assert!(
+                matches!(error, EstimatorError::TooPrecise { .. }),
+                "{error}"
+            );
             let said = error.to_string();
-            assert!(said.contains("Make the sigma of the structure measurements larger"), "{said}");
+            assert!(
+                said.contains("Make the sigma of the structure measurements larger"),
+                "{said}"
+            );
         }
         for (prior, sigma) in [(1.0, 1e-3), (1e4, 1.0), (1e-3, 1e-6), (1e4, 1e6)] {
             let (error, _) = with(prior, sigma).unwrap();
@@ -236,7 +259,10 @@ fn planned_traces_are_right_to_six_digits_or_refused() {
         };
         let direct = || {
             let isotropic = |&f| PlannedMeasurement::isotropic(f, noise.feature_measurement_sigma);
-            let planned = visible.iter().map(isotropic).collect::<Result<Vec<_>, _>>()?;
+            let planned = visible
+                .iter()
+                .map(isotropic)
+                .collect::<Result<Vec<_>, _>>()?;
             let mut direct = DirectTrace::new(&belief, &motion, &noise, structure)?;
             direct.after(&control, &planned)
         };
@@ -252,13 +278,15 @@ fn planned_traces_are_right_to_six_digits_or_refused() {
             .collect();
         let list = if structure { every_pair(COUNT) } else { vec![] };
         let pairs = pairs(&list, &mut rng);
-        let expected =
-            exact::trace(&exact::updated(&p, &predicted, &measured, &pairs, &noise).0);
+        let expected = exact::trace(&exact::updated(&p, &predicted, &measured, &pairs, &noise).0);
         for (which, trace) in [fast(), direct()].into_iter().enumerate() {
             match trace {
                 Ok(trace) => {
                     let error = (trace / expected - 1.0).abs();
-                    assert!(error <= RIGHT, "run {run}, {which}: {error:e} with {noise:?}");
+                    assert!(
+                        error <= RIGHT,
+                        "run {run}, {which}: {error:e} with {noise:?}"
+                    );
                     right[which] += 1;
                 }
                 Err(error) => {

@@ -33,13 +33,7 @@ fn start() -> Belief {
     ));
     let features = [[4.0, 1.0, 0.0], [1.0, -3.0, 2.0], [-2.0, 2.0, -3.0]];
     let covariance = Matrix6::identity() * 1e-3;
-    Belief::initial(
-        pose,
-        features.map(Point3::from).to_vec(),
-        &covariance,
-        0.1,
-    )
-    .unwrap()
+    Belief::initial(pose, features.map(Point3::from).to_vec(), &covariance, 0.1).unwrap()
 }
 
 /// A motion that ends this many degrees from pitch 90°, and an update that turns the estimate by about `correction`
@@ -52,7 +46,11 @@ fn error(
 ) -> Result<f64, EstimatorError> {
     let mut belief = start();
     let control = Control {
-        rotation: Vector3::new(0.0, (90.0 - START_DEG - from_right_angle_deg).to_radians(), 0.1),
+        rotation: Vector3::new(
+            0.0,
+            (90.0 - START_DEG - from_right_angle_deg).to_radians(),
+            0.1,
+        ),
         translation: Vector3::new(0.3, 0.0, 0.1),
     };
     let motion = [Vector3::new(0.1, 0.0, -0.1); 3];
@@ -122,7 +120,10 @@ fn six_digits_are_right_wherever_the_pitch_is_or_it_is_refused() {
             }
         }
         println!("{right} right to {largest:e}, {refused} refused");
-        assert!(right > 100 && refused > 50, "{right} right, {refused} refused");
+        assert!(
+            right > 100 && refused > 50,
+            "{right} right, {refused} refused"
+        );
     }
 }
 

@@ -4,8 +4,8 @@ mod common;
 mod filters;
 
 use adslam_estimator::{
-    Belief, Covariance, EstimatorError, FeatureMeasurement, FilterNoise, Measurements, PairMeasurement,
-    StructureMeasurements,
+    Belief, Covariance, EstimatorError, FeatureMeasurement, FilterNoise, Measurements,
+    PairMeasurement, StructureMeasurements,
 };
 use adslam_models::{FeatureId, POSE_DIM, Pose, State, feature_measurement, feature_offset};
 use common::{NOISE, assert_close, covariance_matrix};

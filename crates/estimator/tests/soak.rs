@@ -116,7 +116,10 @@ fn sigmas_of_any_file_keep_a_covariance_or_are_refused() {
             };
         }
     }
-    assert!(whole > 30 && refused > 10, "{whole} whole, {refused} refused");
+    assert!(
+        whole > 30 && refused > 10,
+        "{whole} whole, {refused} refused"
+    );
 }
 
 #[test]

@@ -128,7 +128,8 @@ fn decisions_after_the_first_allocate_nothing() {
 #[test]
 fn dense_decisions_after_the_first_allocate_nothing() {
     let planned = |set: &Vec<FeatureId>| -> Vec<PlannedMeasurement> {
-        let measured = |&f| PlannedMeasurement::isotropic(f, NOISE.feature_measurement_sigma).unwrap();
+        let measured =
+            |&f| PlannedMeasurement::isotropic(f, NOISE.feature_measurement_sigma).unwrap();
         set.iter().map(measured).collect()
     };
     for case in cases() {

@@ -266,7 +266,12 @@ fn negative_sigmas_and_exact_measurements() {
         for value in [-0.1, 0.0] {
             let said = format!("has {value} in noise.{key}");
             let pointer = format!("/noise/{key}");
-            refused_with(1, &pointer, Some(json!(value)), &[&said, "a number above 0"]);
+            refused_with(
+                1,
+                &pointer,
+                Some(json!(value)),
+                &[&said, "a number above 0"],
+            );
         }
     }
     for key in motions {

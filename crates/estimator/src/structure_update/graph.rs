@@ -90,7 +90,10 @@ impl PairGraph {
             self.degrees.push(nonzeros(column));
         }
         let fewest = |degrees: &[usize]| {
-            let joined = degrees.iter().enumerate().filter(|(_, degree)| **degree > 0);
+            let joined = degrees
+                .iter()
+                .enumerate()
+                .filter(|(_, degree)| **degree > 0);
             joined.min_by_key(|(_, degree)| **degree).map(|(v, _)| v)
         };
         while let Some(feature) = fewest(&self.degrees) {

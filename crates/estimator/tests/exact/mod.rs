@@ -127,7 +127,10 @@ pub fn relative_error(found: &Belief, right: &Exact) -> f64 {
     // Elimination of `right`, the same on the rows and columns of the error.
     for k in 0..n {
         let pivot = rest[k][k].clone();
-        assert!(pivot > BigRational::zero(), "the oracle is positive definite");
+        assert!(
+            pivot > BigRational::zero(),
+            "the oracle is positive definite"
+        );
         for i in k + 1..n {
             let factor = &rest[i][k] / &pivot;
             if factor.is_zero() {

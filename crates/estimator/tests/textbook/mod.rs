@@ -59,7 +59,10 @@ impl Textbook {
     }
 
     pub fn covariance_to_paper(self, state: &State, p: &DMatrix<f64>) -> DMatrix<f64> {
-        let t = self.transformation(state).try_inverse().expect("pitch is off ±π/2");
+        let t = self
+            .transformation(state)
+            .try_inverse()
+            .expect("pitch is off ±π/2");
         &t * p * t.transpose()
     }
 
