@@ -3,8 +3,11 @@
 use adslam_models::FeatureId;
 use thiserror::Error;
 
-/// The entries of the pose, by name.
-const POSE_ENTRIES: [&str; 6] = ["roll", "pitch", "yaw", "x", "y", "z"];
+/// An entry of the pose by name.
+fn pose_entry(index: &usize) -> &'static str {
+    const NAMES: [&str; 6] = ["roll", "pitch", "yaw", "x", "y", "z"];
+    NAMES.get(*index).copied().unwrap_or("?")
+}
 
 /// A filter step that could not be done. The belief it was asked to change must not be used further.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -78,7 +81,7 @@ pub enum EstimatorError {
         "the first covariance of the pose has {covariance} between {} and {} (entries {first} and {second}), more \
          than {largest}, the root of the product of their variances: no two numbers vary together like that. \
          Make it smaller, or the variances larger",
-        POSE_ENTRIES[*first], POSE_ENTRIES[*second]
+        pose_entry(.first), pose_entry(.second)
     )]
     BadCorrelation {
         /// One entry of the pose.

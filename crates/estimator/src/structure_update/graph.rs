@@ -78,6 +78,7 @@ impl PairGraph {
     fn factorise(&mut self, count: usize) {
         self.order.clear();
         self.order.reserve(count);
+        self.neighbours.clear();
         self.neighbours.reserve(count);
         self.factor.reshape(count, count);
         self.degrees.clear();
