@@ -63,7 +63,7 @@ fn the_covariance_stays_positive_definite_whatever_the_noise_and_the_measurement
     const WORLDS: usize = 20;
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     for seed in 0..WORLDS {
-        let noise = any_noise(&mut rng, -4.0..0.0);
+        let noise = any_noise(&mut rng, -3.0..0.0);
         for (name, mut filter) in filters(noise).unwrap() {
             let mut world = World::new(FEATURES, noise, seed as u64);
             let mut belief = world.first_belief().unwrap();
