@@ -59,8 +59,8 @@ const LARGEST_LOSS: f64 = 1e-6;
 /// Refuses orientations between which a covariance in angles cannot be carried over with six right digits.
 ///
 /// P = W₀⁻¹ R W₀⁻ᵀ of a covariance R of rotations becomes D P Dᵀ, D = W₁⁻¹ W₀. Its rounding errors, ε |D|² |P|,
-/// count in rotations at `after`: relative to R that is ε (|W₁| |D| |W₀⁻¹|)². Where little is corrected D is I, and
-/// that is about 6 ε/cos²(pitch).
+/// count in rotations at `after`: relative to R that is at most ε (|W₁| |D| |W₀⁻¹|)², with Frobenius norms. Where little
+/// is corrected D is I, and that is 18 ε/cos²(pitch).
 pub(crate) fn check_conversion(
     before: EulerAngles,
     after: EulerAngles,
