@@ -218,17 +218,18 @@ pub(crate) fn condition_on_features(
 /// How many times smaller the sightings can make a variance: all of them that of the pose, each that of its
 /// feature.
 fn gain(covariance: &Covariance, sightings: &[Sighting]) -> f64 {
-    let pose = covariance.pose().diagonal();
-    let (mut of_pose, mut of_features) = (0.0, 0.0_f64);
+    let mut of_pose = Vector6::zeros();
+    let mut of_features = 0.0_f64;
     for sighting in sightings {
         let noise = sighting.smallest_noise();
         let squares = sighting.jacobian.pose.map(|entry| entry * entry);
-        of_pose += (squares.row_sum() * pose).x / noise;
+        of_pose += squares.row_sum().transpose() / noise;
         let feature = sighting.feature.0;
-        of_features =
-            of_features.max(covariance.largest_feature_variance(feature..feature + 1) / noise);
+        let variance = covariance.largest_feature_variance(feature..feature + 1);
+        of_features = of_features.max(variance / noise);
     }
-    of_pose + of_features
+    let pose = covariance.pose().diagonal();
+    of_pose.component_mul(&pose).max().max(of_features)
 }
 
 /// P Hᵀ of one block: for all rows the pose's part, then each feature's.
