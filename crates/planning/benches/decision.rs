@@ -183,7 +183,7 @@ fn direct(
         let sigma = noise.feature_measurement_sigma;
         planned.extend(
             seen.iter()
-                .map(|&id| PlannedMeasurement::isotropic(id, sigma)),
+                .map(|&id| PlannedMeasurement::isotropic(id, sigma).unwrap()),
         );
         best = best.min(objective.after(&candidate.control, planned).unwrap());
     }

@@ -211,7 +211,7 @@ fn headers_with_missing_keys() {
 
 #[test]
 fn headers_that_say_what_cannot_be() {
-    let cases: [(&str, Value, [&str; 2]); 9] = [
+    let cases: [(&str, Value, [&str; 2]); 7] = [
         (
             "/length_unit",
             json!("inch"),
@@ -230,15 +230,9 @@ fn headers_that_say_what_cannot_be() {
             ["1000000 features", "up to 2000"],
         ),
         (
-            "/initial/feature_sigma",
-            json!(-0.1),
-            ["-0.1", "not negative"],
-        ),
-        ("/noise/rotation_sigma", json!(-1), ["-1", "not negative"]),
-        (
-            "/noise/feature_measurement_sigma",
-            json!(0),
-            ["is 0", "greater than zero"],
+            "/noise/structure_measurement_sigma",
+            json!(1e-200),
+            ["the structure measurements is 1e-200", "a number above 0"],
         ),
         (
             "/initial/pose_covariance/0/0",
@@ -258,6 +252,66 @@ fn headers_that_say_what_cannot_be() {
         "symmetric",
     ];
     refused_with(1, "/initial/pose_covariance/1/0", Some(json!(1.0)), &words);
+}
+
+#[test]
+fn negative_sigmas_and_exact_measurements() {
+    let measurements = ["feature_measurement_sigma", "structure_measurement_sigma"];
+    let motions = [
+        "rotation_sigma",
+        "translation_sigma",
+        "feature_motion_sigma",
+    ];
+    for key in measurements {
+        for value in [-0.1, 0.0] {
+            let said = format!("has {value} in noise.{key}");
+            let pointer = format!("/noise/{key}");
+            refused_with(
+                1,
+                &pointer,
+                Some(json!(value)),
+                &[&said, "a number above 0"],
+            );
+        }
+    }
+    for key in motions {
+        let said = format!("has -0.1 in noise.{key}");
+        let pointer = format!("/noise/{key}");
+        refused_with(1, &pointer, Some(json!(-0.1)), &[&said, "0 or more"]);
+    }
+    let words = ["has -2 in initial.feature_sigma", "0 or more"];
+    refused_with(1, "/initial/feature_sigma", Some(json!(-2.0)), &words);
+}
+
+#[test]
+fn covariances_that_no_pose_has() {
+    let with = |entries: &[(usize, usize, f64)]| {
+        let mut log = log();
+        for &(i, j, value) in entries {
+            for (i, j) in [(i, j), (j, i)] {
+                log[0]["initial"]["pose_covariance"][i][j] = json!(value);
+            }
+        }
+        lines(&log)
+    };
+    let ones = [(0, 0, 1.0), (1, 1, 1.0), (2, 2, 1.0)];
+    let pair = with(&[&ones[..], &[(0, 1, 2.0)]].concat());
+    let words = [
+        "log.jsonl: line 1",
+        "has 2 between roll and pitch (entries 0 and 1)",
+        "help:",
+    ];
+    place(&pair).refuses(FILTER, &words);
+    // Each pair is right, all three together are not.
+    let three = [(0, 1, -0.6), (0, 2, -0.6), (1, 2, -0.6)];
+    let three = with(&[&ones[..], &three].concat());
+    let words = [
+        "log.jsonl: line 1",
+        "not positive semidefinite",
+        "eigenvalue -0.2",
+        "help:",
+    ];
+    place(&three).refuses(FILTER, &words);
 }
 
 #[test]

@@ -118,10 +118,46 @@ impl<R: BufRead> LogReader<R> {
             );
             return wrong(what, "make the two agree");
         }
+        self.check_sigmas()?;
         self.check_pose_covariance()
     }
 
-    /// Whether it can be a covariance at first sight; whether it really is one shows in the filter.
+    /// Sigmas are never negative, and what is divided by is above 0.
+    fn check_sigmas(&self) -> Result<(), InputError> {
+        let (noise, initial) = (&self.header.noise, &self.header.initial);
+        let may_be_zero = [
+            ("noise.rotation_sigma", noise.rotation_sigma),
+            ("noise.translation_sigma", noise.translation_sigma),
+            ("noise.feature_motion_sigma", noise.feature_motion_sigma),
+            ("initial.feature_sigma", initial.feature_sigma),
+        ];
+        let above_zero = [
+            (
+                "noise.feature_measurement_sigma",
+                noise.feature_measurement_sigma,
+            ),
+            (
+                "noise.structure_measurement_sigma",
+                noise.structure_measurement_sigma,
+            ),
+        ];
+        for (key, sigma) in may_be_zero {
+            if sigma < 0.0 {
+                let what = format!("has {sigma} in {key}");
+                return Err(self.error(&what, "a sigma is not negative: write 0 or more"));
+            }
+        }
+        for (key, sigma) in above_zero {
+            if sigma <= 0.0 {
+                let what = format!("has {sigma} in {key}");
+                let help = "no measurement is exact, and none has a negative sigma: write a number above 0";
+                return Err(self.error(&what, help));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether it can be a covariance at first sight; whether it really is one the first belief checks.
     fn check_pose_covariance(&self) -> Result<(), InputError> {
         let covariance = &self.header.initial.pose_covariance;
         for (i, row) in covariance.iter().enumerate() {
