@@ -68,7 +68,7 @@ fn a_ply_list() {
         refused(MeshFormat::Ply, &bytes, "end of file", 10 * KIB);
     }
     let bytes = ply("ascii", "1", "1", "uint int", b"0 0 0\n4294967295 0 0 0\n");
-    refused(MeshFormat::Ply, &bytes, "line 10", 10 * KIB);
+    refused(MeshFormat::Ply, &bytes, "line 11", 10 * KIB);
 }
 
 /// A line of a million words takes no more than one of three.

@@ -18,7 +18,9 @@ pub(super) fn unmarked(bytes: &[u8]) -> &[u8] {
 pub(super) fn check_encoding(format: MeshFormat, bytes: &[u8]) -> Result<(), SurfaceError> {
     let wide = match bytes {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] | [0, 0, 0xfe, 0xff, ..] => true,
-        [a, 0, b, 0, ..] | [0, a, 0, b, ..] => a.is_ascii_graphic() && b.is_ascii_graphic(),
+        [a, 0, b, 0, ..] | [0, a, 0, b, ..] => {
+            [a, b].iter().all(|letter| (1..128).contains(*letter))
+        }
         _ => false,
     };
     if wide {
