@@ -188,7 +188,7 @@ fn nearly_joined_corners_are_joined_where_that_is_asked_for() {
     );
     let farthest = seen["farthest_joined_cm"].as_f64().unwrap();
     assert!((1e-7..1e-5).contains(&farthest), "{farthest}");
-    place.refuses("mesh nearly_joined.ply --join-within -1", &["below 0"]);
+    place.refuses("mesh nearly_joined.ply --join-within=-1", &["below 0"]);
 }
 
 /// The notes on the file of a run's object are warnings of the run, in the terminal and for machines.
