@@ -27,6 +27,7 @@ mod json;
 #[cfg(unix)]
 mod killed;
 mod mesh;
+mod mesh_cases;
 mod new;
 mod replay;
 mod run;

@@ -39,6 +39,8 @@ pub struct Setup {
     pub predetermined: Control,
     /// The surface that is drawn: the mesh's or phantom's, or the features' own.
     pub drawn: Arc<Mesh>,
+    /// What is to be known of the file that the object was read from; part of the warnings.
+    pub object_notes: Vec<String>,
     /// What the user should know before running.
     pub warnings: Vec<String>,
     /// The scenario itself, for the planners' parameters.
@@ -54,7 +56,7 @@ impl Setup {
     pub fn new(scenario: &Scenario) -> Result<Self, InputError> {
         let object = RestObject::build(scenario)?;
         let (topology, drawn) = (Arc::new(object.topology), Arc::new(object.drawn));
-        Self::around(object.features, topology, drawn, scenario)
+        Self::around(object.features, topology, drawn, object.notes, scenario)
     }
 
     /// The setup of another scenario. Its object, where it is the same, is shared and not built again.
@@ -68,13 +70,15 @@ impl Setup {
         }
         let topology = Arc::clone(&self.planning.topology);
         let features = self.world.rest.clone();
-        Self::around(features, topology, Arc::clone(&self.drawn), scenario)
+        let notes = self.object_notes.clone();
+        Self::around(features, topology, Arc::clone(&self.drawn), notes, scenario)
     }
 
     fn around(
         features: Vec<Point3<f64>>,
         topology: Arc<Topology>,
         drawn: Arc<Mesh>,
+        object_notes: Vec<String>,
         scenario: &Scenario,
     ) -> Result<Self, InputError> {
         let noise = scenario.filter_noise();
@@ -121,7 +125,11 @@ impl Setup {
                 translation: *path.translation_cm,
             },
             drawn,
-            warnings: Vec::new(),
+            warnings: object_notes
+                .iter()
+                .map(|note| format!("{}: {note}", scenario.name))
+                .collect(),
+            object_notes,
             scenario: scenario.clone(),
         };
         setup.checked()
