@@ -4,6 +4,7 @@ mod bench_report;
 mod docs;
 mod environment;
 mod figures;
+mod golden_runs;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -40,6 +41,9 @@ enum Task {
     BenchReport(BenchReportArgs),
     /// Renew the files made from the code: docs/scenario.md and schemas/
     Docs,
+    /// Renew tests/fixtures/golden/runs.txt, what every planner decides in whole runs. Refuses to where
+    /// decisions have changed and RESULTS_VERSION has not been raised
+    GoldenRuns,
 }
 
 fn main() -> ExitCode {
@@ -67,6 +71,7 @@ fn main() -> ExitCode {
         Task::ReproduceFigures(args) => figures::reproduce(&args, interrupt),
         Task::BenchReport(args) => bench_report::report(&args),
         Task::Docs => docs::renew(&workspace()),
+        Task::GoldenRuns => golden_runs::renew(interrupt),
     }
 }
 

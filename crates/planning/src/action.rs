@@ -143,5 +143,33 @@ mod tests {
         assert!((v - expected).norm() < 1e-15);
         assert!(actions.admits(EulerAngles::new(limit, -limit, 3.0)));
         assert!(!actions.admits(EulerAngles::new(limit + 1e-9, 0.0, 0.0)));
+        assert!(!actions.admits(EulerAngles::new(0.0, -limit - 1e-9, 0.0)));
+    }
+
+    #[test]
+    fn actions_that_lead_to_the_same_place_share_its_number() {
+        let turn = [-0.5, 0.0, 0.5];
+        // Without dz a roll changes nothing, and without dx nor dz nothing does.
+        let actions = ActionSet::grid([&turn, &[0.0], &turn], [&[0.0, 0.4], &[0.0]], 1.0, 1.0);
+        let numbers: Vec<usize> = (0..18).map(|action| actions.position_of(action)).collect();
+        assert_eq!(numbers[..6], [0, 1, 0, 2, 0, 3]);
+        assert_eq!(numbers[..6], numbers[6..12]);
+        assert_eq!(numbers[..6], numbers[12..]);
+        assert_eq!(actions.position_count(), 4);
+    }
+
+    #[test]
+    fn zeros_of_either_sign_are_the_same_place() {
+        let to = |x, y, z| Control {
+            rotation: Vector3::zeros(),
+            translation: Vector3::new(x, y, z),
+        };
+        let controls = [
+            to(0.0, -0.0, 1.0),
+            to(-0.0, 0.0, 1.0),
+            to(0.0, 0.0, -1.0),
+            to(0.0, 0.0, 1.0),
+        ];
+        assert_eq!(distinct_translations(&controls), (vec![0, 0, 1, 0], 2));
     }
 }

@@ -10,7 +10,7 @@
     reason = "a failed preparation is a failed benchmark"
 )]
 
-#[path = "../../estimator/tests/common/mod.rs"]
+#[path = "../../crates/estimator/tests/common/mod.rs"]
 mod textbook;
 
 use std::sync::{LazyLock, OnceLock};
