@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 use super::super::folder::StudyFolder;
-use super::super::{Study, StudyPlan};
-use super::{Said, names, plan, setup, work};
+use super::super::{OtherBuilds, StudyPlan};
+use super::{names, open, plan, setup, work};
 use crate::ExperimentError;
 use crate::diagnostics::InputError;
 use crate::run::Setup;
@@ -16,7 +16,7 @@ use crate::scenario::Scenario;
 use crate::scenario::tests::POLYGON;
 
 fn refused(folder: &Path, plan: StudyPlan<'_>) -> InputError {
-    match Study::<Said>::open(folder, plan) {
+    match open(folder, plan) {
         Err(ExperimentError::Input(error)) => error,
         other => panic!("{other:?}"),
     }
@@ -27,7 +27,7 @@ fn one_process_at_a_time() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
     // A process that died here, with as long a number as there is.
     fs::write(folder.path().join("study.lock"), "4294967295").unwrap();
-    let at_work = StudyFolder::lock(folder.path(), &plan(&setup, 1)).unwrap();
+    let at_work = StudyFolder::lock(folder.path(), &plan(&setup, 1), OtherBuilds::Refuse).unwrap();
     let process = format!("another adslam (process {}) is at work", std::process::id());
     let refused_with = |process: &str| {
         let error = refused(folder.path(), plan(&setup, 1));
@@ -37,7 +37,7 @@ fn one_process_at_a_time() {
     // As soon as it is locked, and later.
     refused_with(&process);
     drop(at_work);
-    let at_work = Study::<Said>::open(folder.path(), plan(&setup, 1)).unwrap();
+    let at_work = open(folder.path(), plan(&setup, 1)).unwrap();
     refused_with(&process);
     fs::write(folder.path().join("study.lock"), "").unwrap();
     refused_with("another adslam is at work");
@@ -49,17 +49,21 @@ fn one_process_at_a_time() {
 fn another_study_is_refused_by_what_differs() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
     work(folder.path(), plan(&setup, 1));
-    let error = refused(folder.path(), plan(&setup, 2));
+    let later = StudyPlan {
+        first_seed: 2,
+        ..plan(&setup, 2)
+    };
+    let error = refused(folder.path(), later);
     assert!(
         error
             .message()
-            .contains("holds another study: `units` is 2 there and 4 here"),
+            .ends_with("holds another study: seeds 1 there and 2–3 here"),
         "{error}"
     );
     let wider = POLYGON.replacen("range_cm = 3.0", "range_cm = 4.0", 1);
     let wider = Setup::new(&Scenario::parse(&wider, Path::new("polygon.toml")).unwrap()).unwrap();
     let error = refused(folder.path(), plan(&wider, 1));
-    let difference = "`scenario.sensor.range_cm` is 3.0 there and 4.0 here";
+    let difference = "`sensor.range_cm` is 3.0 there and 4.0 here";
     assert!(error.message().contains(difference), "{error}");
     assert!(error.path().ends_with("plan.json"));
     // What is said there does not count, nor where it lies.
@@ -96,7 +100,7 @@ fn a_folder_that_is_refused_stays_as_it_is() {
     let path = |name: &str| folder.path().join(name);
     fs::write(path("records/.adslam-abc123"), "half").unwrap();
     let before = content(folder.path());
-    refused(folder.path(), plan(&setup, 3));
+    refused(folder.path(), plan(&setup, 1));
     assert_eq!(content(folder.path()), before);
     // Nor is a plan written for records that turn out to be of another study.
     fs::remove_file(path("plan.json")).unwrap();
@@ -182,7 +186,7 @@ fn damaged_and_foreign_records_are_named() {
             "is a record of another study",
         ),
         (
-            |text| text.replacen("\"study\":\"", "\"study\":\"0", 1),
+            |text| text.replacen("\"identity\":\"", "\"identity\":\"0", 1),
             "is a record of another study",
         ),
     ];
