@@ -78,7 +78,8 @@ pub enum Command {
         report.html, replays/    a page with figures and replays to open in a browser, with \
         --html\n  \
         plan.json, records/, study.lock   what it goes on from\n\n\
-        Example:\n  adslam tables configs/accumulating.toml --runs 20 --out results/accumulating-20"
+        Example:\n  adslam tables configs/accumulating.toml --runs 20 \
+        --out results/twenty"
     )]
     Tables(TablesArgs),
     /// Vary keys of a scenario, run every planner at each point, and compare them
@@ -102,7 +103,7 @@ pub enum Command {
         verdicts, steps, features (.csv, .jsonl)   as tables: over all steps, step by step, and for each feature\n  \
         figures/                           NEES and NIS against the step\n\n\
         Example:\n  adslam consistency configs/consistency.toml --runs 20 \
-        --out results/consistency-20"
+        --out results/nees-20"
     )]
     Consistency(ConsistencyArgs),
     /// Say what a mesh file holds and whether it will serve as an object

@@ -128,17 +128,9 @@ impl Grown {
             .iter()
             .map(|point| known.get_mut(&point.key())?.pop_front())
             .collect();
-        let missing: Vec<usize> = {
-            let mut missing: Vec<usize> = known.into_values().flatten().collect();
-            missing.sort_unstable();
-            missing
-        };
-        let here = KeptPlan {
-            kind: plan.kind.to_owned(),
-            first_seed: plan.first_seed,
-            runs: plan.runs,
-            ..KeptPlan::begun(plan, build)
-        };
+        let mut missing: Vec<usize> = known.into_values().flatten().collect();
+        missing.sort_unstable();
+        let here = KeptPlan::begun(plan, build);
         let fewer_planners = places.iter().zip(&asked.points).any(|(place, point)| {
             let there = place.map(|place| &grown.points[place].planners);
             there.is_some_and(|there| there.iter().any(|one| !point.planners.contains(one)))

@@ -93,9 +93,9 @@ impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
     ///
     /// # Errors
     /// [`InputError`](crate::diagnostics::InputError) where another process works in the folder, where it holds
-    /// another study, runs that are not in the plan, or runs of another build, where a record is damaged or foreign, and where it cannot be written to; nothing of what
-    /// is there is changed then, but for the lock's file. [`ExperimentError::Output`] where the plan cannot be
-    /// written.
+    /// another study, runs that are not in the plan, or runs of another build, where a record is damaged or
+    /// foreign, and where it cannot be written to; nothing of what is there is changed then, but for the lock's
+    /// file. [`ExperimentError::Output`] where the plan cannot be written.
     pub fn open(
         folder: &Path,
         plan: &StudyPlan<'a>,

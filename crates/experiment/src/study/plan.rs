@@ -54,7 +54,7 @@ pub struct StudyPlan<'a> {
 
 impl<'a> StudyPlan<'a> {
     /// The runs: point by point, planner by planner, seed by seed, for points that have these numbers.
-    pub(super) fn units(&self, numbers: &[usize]) -> Vec<StudyUnit<'a>> {
+    pub(crate) fn units(&self, numbers: &[usize]) -> Vec<StudyUnit<'a>> {
         let points = self.points.iter().zip(numbers).enumerate();
         let units = points.flat_map(|(point, (at, &number))| {
             at.planners.iter().flat_map(move |&planner| {

@@ -184,9 +184,10 @@ fn differences(results: &SweepResults<'_>, metric: usize, digits: usize) -> Stri
         return String::new();
     }
     let by_ranks = results.metrics[metric] == STEPS_TO_SEE_ALL;
-    let what = match by_ranks {
-        true => "sooner, later, alike",
-        false => "mean difference",
+    let what = if by_ranks {
+        "sooner, later, alike"
+    } else {
+        "mean difference"
     };
     let heads = ["planners", what, "p (Holm)"];
     let mut table = started(results, heads.map(ToOwned::to_owned));

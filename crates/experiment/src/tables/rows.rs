@@ -282,9 +282,12 @@ fn single_step(published: Option<usize>, own: Option<usize>, ours: &[f64]) -> Op
     let compared = Published::mean(step(published), 1).against(ours)?;
     let differ = published.is_some() != own.is_some();
     Some(Comparison {
-        agreement: compared.agreement.map(|agreement| match differ {
-            true => Agreement::of_order(step(own), step(published)),
-            false => agreement,
+        agreement: compared.agreement.map(|agreement| {
+            if differ {
+                Agreement::of_order(step(own), step(published))
+            } else {
+                agreement
+            }
         }),
         ..compared
     })

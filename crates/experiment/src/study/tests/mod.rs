@@ -58,12 +58,12 @@ fn of_points<'a>(setups: &[&'a Setup], runs: usize) -> StudyPlan<'a> {
     }
 }
 
-fn open<'a>(folder: &Path, plan: StudyPlan<'a>) -> Result<Study<'a, Said>, ExperimentError> {
-    Study::open(folder, &plan, OtherBuilds::Refuse)
+fn open<'a>(folder: &Path, plan: &StudyPlan<'a>) -> Result<Study<'a, Said>, ExperimentError> {
+    Study::open(folder, plan, OtherBuilds::Refuse)
 }
 
 /// Opens the study and does what is missing; returns how many units that were, and how it ended.
-fn work(folder: &Path, plan: StudyPlan<'_>) -> (usize, Vec<Said>) {
+fn work(folder: &Path, plan: &StudyPlan<'_>) -> (usize, Vec<Said>) {
     let begun = AtomicUsize::new(0);
     let mut study = open(folder, plan).unwrap();
     let end = study.finish(&Interrupt::new(), &|| (), |unit, _| {
@@ -87,7 +87,7 @@ fn names(folder: &Path) -> Vec<String> {
 #[test]
 fn every_unit_is_done_once_and_its_record_read_back() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
-    let (begun, records) = work(folder.path(), plan(&setup, 3));
+    let (begun, records) = work(folder.path(), &plan(&setup, 3));
     assert_eq!(begun, 6);
     let expected: Vec<Said> = plan(&setup, 3).units(&[1]).iter().map(Said::of).collect();
     assert_eq!(records, expected, "in the order of the plan");
@@ -95,7 +95,7 @@ fn every_unit_is_done_once_and_its_record_read_back() {
     let kept = names(&folder.path().join("records"));
     assert_eq!(kept.len(), 6);
     assert_eq!(kept[0], "0001-global-seed1.jsonl");
-    assert_eq!(work(folder.path(), plan(&setup, 3)), (0, expected));
+    assert_eq!(work(folder.path(), &plan(&setup, 3)), (0, expected));
 }
 
 /// Half of the units are done, then the user stops; a later process does the other half.
@@ -103,7 +103,7 @@ fn every_unit_is_done_once_and_its_record_read_back() {
 fn an_interrupted_study_goes_on() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
     let (interrupt, done) = (Interrupt::new(), Mutex::new(Vec::new()));
-    let mut study = open(folder.path(), plan(&setup, 10)).unwrap();
+    let mut study = open(folder.path(), &plan(&setup, 10)).unwrap();
     let finished = AtomicUsize::new(0);
     let progress = || {
         finished.fetch_add(1, Ordering::Relaxed);
@@ -127,14 +127,14 @@ fn an_interrupted_study_goes_on() {
     assert_eq!((study.done(), finished.into_inner()), (10, 10));
     drop(study);
     assert_eq!(names(&folder.path().join("records")).len(), 10);
-    let (begun, records) = work(folder.path(), plan(&setup, 10));
+    let (begun, records) = work(folder.path(), &plan(&setup, 10));
     assert_eq!((begun, records.len()), (10, 20));
 }
 
 #[test]
 fn what_fails_is_told_and_tried_again() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
-    let mut study = open(folder.path(), plan(&setup, 2)).unwrap();
+    let mut study = open(folder.path(), &plan(&setup, 2)).unwrap();
     let end = study.finish(&Interrupt::new(), &|| (), |unit, _| {
         if unit.planner == PlannerName::Local {
             let run = format!("polygon, seed {}", unit.seed);
@@ -160,7 +160,7 @@ fn what_fails_is_told_and_tried_again() {
         "{failures:?}"
     );
     drop(study);
-    assert_eq!(work(folder.path(), plan(&setup, 2)).0, 3);
+    assert_eq!(work(folder.path(), &plan(&setup, 2)).0, 3);
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn a_write_that_fails_ends_the_work_and_loses_nothing() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
     let records = folder.path().join("records");
     let begun = AtomicUsize::new(0);
-    let mut study = open(folder.path(), plan(&setup, 50)).unwrap();
+    let mut study = open(folder.path(), &plan(&setup, 50)).unwrap();
     let end = study.finish(&Interrupt::new(), &|| (), |unit, _| {
         if begun.fetch_add(1, Ordering::Relaxed) == 10 {
             fs::rename(&records, folder.path().join("away")).unwrap();
@@ -185,5 +185,5 @@ fn a_write_that_fails_ends_the_work_and_loses_nothing() {
     assert!((9..=begun).contains(&kept), "{kept} of {begun}");
     drop(study);
     fs::rename(folder.path().join("away"), &records).unwrap();
-    assert_eq!(work(folder.path(), plan(&setup, 50)).0, 100 - kept);
+    assert_eq!(work(folder.path(), &plan(&setup, 50)).0, 100 - kept);
 }
