@@ -45,7 +45,7 @@ fn plan(setup: &Setup, runs: usize) -> StudyPlan<'_> {
 /// Two planners at as many seeds at each of several points.
 fn of_points<'a>(setups: &[&'a Setup], runs: usize) -> StudyPlan<'a> {
     const PLANNERS: &[PlannerName] = &[PlannerName::Local, PlannerName::Global];
-    let points = setups.iter().map(|setup| StudyPoint {
+    let points = setups.iter().map(|&setup| StudyPoint {
         setup,
         planners: PLANNERS,
         label: None,
