@@ -98,9 +98,9 @@ fn limits_that_are_waived_are_told_of_and_foreseen() {
 
 #[test]
 fn viewpoints_that_cannot_be_reached_are_told_of() {
-    let near = polygon(&[("clearance_cm = 0.3", "clearance_cm = 1.4")]);
+    let near = polygon(&[("clearance_cm = 0.3", "clearance_cm = 1.33")]);
     let told = of_run(&near, "global");
-    let left_out = "polygon: viewpoint candidates are left out, as a robot that keeps its clearance of 1.4 cm does not \
+    let left_out = "polygon: viewpoint candidates are left out, as a robot that keeps its clearance of 1.33 cm does not \
         come within 0.3 cm of them (";
     assert!(
         told[0].starts_with(left_out) && told[0].ends_with(" of 396)"),
