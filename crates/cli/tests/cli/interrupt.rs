@@ -87,7 +87,7 @@ fn an_interruption_is_one_though_runs_have_failed() {
         ("config.toml", both),
     ]);
     let child = start(&place, "tables config.toml --out tables", "tables");
-    sleep(Duration::from_millis(500));
+    wait_for_records(&place, "tables", 10);
     let said = interrupt(child);
     for word in ["of the runs failed", "[breaking]", "interrupted"] {
         assert!(said.contains(word), "{said}");
