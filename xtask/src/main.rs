@@ -24,9 +24,13 @@ enum Task {
         /// Runs of each method
         #[arg(long, default_value_t = 5, value_name = "N")]
         runs: usize,
-        /// The folder to write tables.md, tables.json and report.html to
-        #[arg(long, default_value = "results", value_name = "DIR")]
-        out: PathBuf,
+        /// The folder to write tables.md, tables.json and report.html to, and to go on in. Where not given,
+        /// results/paper, with the environment and `mesh` added where they are given
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Go on with runs that another build did, and say so in the tables
+        #[arg(long)]
+        accept_build: bool,
         /// Which environment
         #[arg(long, default_value = "all")]
         scenario: Environment,
@@ -48,9 +52,11 @@ fn main() -> ExitCode {
         Task::ReproduceTables {
             runs,
             out,
+            accept_build,
             scenario,
             mesh,
         } => {
+            let out = out.unwrap_or_else(|| folder_for(scenario, mesh.is_some()));
             let args = TablesArgs {
                 config: paper(),
                 selection: SelectionArgs {
@@ -58,7 +64,8 @@ fn main() -> ExitCode {
                     only: scenario.labels(),
                     mesh,
                 },
-                out,
+                out: Some(out),
+                accept_build,
                 html: true,
                 json: false,
             };
@@ -74,6 +81,18 @@ fn main() -> ExitCode {
 fn workspace() -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
     folder.unwrap_or(Path::new(".")).to_owned()
+}
+
+/// The folder of the paper's tables, another for each choice of what is run.
+fn folder_for(scenario: Environment, is_other_mesh: bool) -> PathBuf {
+    let mut name = "paper".to_owned();
+    for label in scenario.labels() {
+        name += &format!("-{label}");
+    }
+    if is_other_mesh {
+        name += "-mesh";
+    }
+    Path::new("results").join(name)
 }
 
 /// The configuration of the paper's experiments.

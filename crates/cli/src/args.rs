@@ -25,7 +25,7 @@ use crate::commands;
                   simulation, and filters recorded logs.\n\nExit codes: 0 all went well, 1 the \
                   work failed, 2 the input cannot be used, 130 interrupted.",
     after_help = "Try:\n  adslam run scenarios/polygon.toml --planner combined --seed 1 --out run\n  \
-                  adslam tables configs/paper.toml --out results\n  \
+                  adslam tables configs/paper.toml\n  \
                   adslam check scenarios/*.toml configs/*.toml sweeps/*.toml\n  \
                   adslam new scenario --out mine.toml"
 )]
@@ -71,11 +71,16 @@ pub enum Command {
     )]
     Filter(FilterArgs),
     /// Run everything that a configuration asks for and tabulate it
-    #[command(after_help = "Writes into the folder given with --out:\n  \
+    #[command(
+        after_help = "Every finished run is kept in a file. Stopped or killed, the same command goes on \
+        with what is missing. Writes into the folder given with --out:\n  \
         tables.md, tables.json   the tables, and every run\n  \
         report.html, replays/    a page with figures and replays to open in a browser, with \
-        --html\n\n\
-        Example:\n  adslam tables configs/accumulating.toml --runs 20 --out results/accumulating")]
+        --html\n  \
+        plan.json, records/, study.lock   what it goes on from\n\n\
+        Example:\n  adslam tables configs/accumulating.toml --runs 20 \
+        --out results/twenty"
+    )]
     Tables(TablesArgs),
     /// Vary keys of a scenario, run every planner at each point, and compare them
     #[command(
@@ -97,7 +102,8 @@ pub enum Command {
         consistency.md, consistency.json   the verdicts, for people and for machines\n  \
         verdicts, steps, features (.csv, .jsonl)   as tables: over all steps, step by step, and for each feature\n  \
         figures/                           NEES and NIS against the step\n\n\
-        Example:\n  adslam consistency configs/consistency.toml --runs 20 --out results/consistency"
+        Example:\n  adslam consistency configs/consistency.toml --runs 20 \
+        --out results/nees-20"
     )]
     Consistency(ConsistencyArgs),
     /// Say what a mesh file holds and whether it will serve as an object

@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 use adslam_deformation::ObjectMotion;
 use nalgebra::Point3;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 pub use estimators::EstimatorName;
 pub use mismatch::{Mismatch, UnmodelledRotation};
@@ -44,7 +44,7 @@ use crate::diagnostics::{Document, FileKind, InputError};
 
 /// What the world is: the object, its motion, the noise, the sensor, the robot, and the planners'
 /// parameters in it. Unknown keys are errors.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
     /// What it is called in tables and file names: up to 64 letters, digits, `-`, `_` and `.`.
@@ -150,6 +150,23 @@ impl Scenario {
         let mut keys = self.document.to_json();
         if let Some(keys) = keys.as_object_mut() {
             keys.remove("description");
+        }
+        keys
+    }
+
+    /// Every key with the value that holds, defaults included, as JSON: all that its runs depend on, but for the
+    /// content of a mesh file, of which only the name is there, without its folder. Descriptions are left out.
+    #[must_use]
+    pub fn effective(&self) -> serde_json::Value {
+        let mut keys = serde_json::to_value(self).unwrap_or_default();
+        if let Some(keys) = keys.as_object_mut() {
+            keys.remove("description");
+        }
+        if let (Object::Mesh(mesh), Some(file)) =
+            (&self.object, keys.pointer_mut("/object/mesh/file"))
+        {
+            let name = mesh.file.file_name().unwrap_or_default();
+            *file = name.to_string_lossy().into();
         }
         keys
     }
