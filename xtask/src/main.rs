@@ -8,7 +8,7 @@ mod figures;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use adslam_cli::{SelectionArgs, TablesArgs, exit_code, stop_on_ctrl_c, tables};
+use adslam_cli::{SelectionArgs, TablesArgs, exit_code, stop_on_signals, tables};
 use clap::Parser;
 
 use bench_report::BenchReportArgs;
@@ -43,7 +43,7 @@ enum Task {
 }
 
 fn main() -> ExitCode {
-    let interrupt = stop_on_ctrl_c();
+    let interrupt = stop_on_signals();
     match Task::parse() {
         Task::ReproduceTables {
             runs,

@@ -1,8 +1,9 @@
 //! `adslam run`
 
 use adslam_experiment::ExperimentError;
-use adslam_experiment::output::prepare_folder;
-use adslam_experiment::run::{Interrupt, Observer, RunRecorder, Setup, StepView, simulate};
+use adslam_experiment::run::{
+    Interrupt, Observer, PAGE_FILE, RunRecorder, Setup, StepView, simulate,
+};
 use adslam_experiment::scenario::{Named, Scenario};
 use indicatif::ProgressBar;
 
@@ -31,7 +32,6 @@ fn run_once(
     }
     let setup = Setup::new(&scenario)?;
     answer.warn(&setup.warnings);
-    prepare_folder(&args.out)?;
     let recorder = RunRecorder::create(&args.out, &setup, args.planner, args.seed)?;
     let mut observer = Shown {
         recorder,
@@ -41,12 +41,10 @@ fn run_once(
     observer.bar.finish_and_clear();
     let outcome = result?;
     answer.warn(&outcome.warnings);
-    let page = args.out.join("replay.html");
-    if args.html {
-        adslam_replay::write_html(&[observer.recorder.history()], &page)?;
-    }
-    let mut files = observer.recorder.commit(&outcome.summary)?;
-    files.extend(args.html.then_some(page));
+    let recorder = observer.recorder;
+    let page = || adslam_replay::to_file(&[recorder.history()], &args.out.join(PAGE_FILE));
+    let page = args.html.then(page).transpose()?;
+    let files = recorder.commit(&outcome.summary, page.into_iter().collect())?;
     let summary = &outcome.summary;
     if summary.observed == 0 {
         answer.warn(&[UNSEEN.to_owned()]);

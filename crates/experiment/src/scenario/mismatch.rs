@@ -6,7 +6,7 @@ use std::sync::Arc;
 use adslam_deformation::{AxisRotation, Clock, MotionError, ObjectMotion, ScaledDeformation, Turn};
 use nalgebra::{Point3, Vector3};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::Noise;
 use super::checks::check_axis;
@@ -15,7 +15,7 @@ use crate::diagnostics::{Document, InputError};
 
 /// Where the truth departs from what filter and planners are told. Only the simulated world reads
 /// this; what they believe stays that of `known_motion` or `motion`, of `noise` and of `filter`.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Mismatch {
     /// The true displacement D is this many times that of `motion`.
@@ -48,7 +48,7 @@ pub struct Mismatch {
 }
 
 /// A rotation that filter and planners know nothing of: exp(axis · rate · (n − 1)) at step n.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UnmodelledRotation {
     /// The axis, a vector other than zero whose length is of no matter (world frame).

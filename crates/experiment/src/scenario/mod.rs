@@ -18,13 +18,14 @@ mod robot;
 pub(crate) mod tests;
 pub mod values;
 mod viewpoints;
+mod written;
 
 use std::path::{Path, PathBuf};
 
 use adslam_deformation::ObjectMotion;
 use nalgebra::Point3;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 pub use estimators::EstimatorName;
 pub use mismatch::{Mismatch, UnmodelledRotation};
@@ -44,7 +45,7 @@ use crate::diagnostics::{Document, FileKind, InputError};
 
 /// What the world is: the object, its motion, the noise, the sensor, the robot, and the planners'
 /// parameters in it. Unknown keys are errors.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
     /// What it is called in tables and file names: up to 64 letters, digits, `-`, `_` and `.`.

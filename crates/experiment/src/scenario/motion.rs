@@ -14,7 +14,7 @@ use thiserror::Error;
 use super::values::{FeatureNumber, Finite, List, Positive, Vec3};
 
 /// How the object moves: t, d, r_t and r_d of eq. (2). What is not given is not there.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Motion {
     /// t, which all features share. Default: `"none"`.
@@ -29,7 +29,7 @@ pub struct Motion {
 }
 
 /// What shifts all features alike.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Translation {
     /// No translation.
@@ -42,7 +42,7 @@ pub enum Translation {
 }
 
 /// Forth from every odd step, back from every even one.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BackAndForthStep {
     /// The way forth; the paper has `[0.1, 0, 0]` (world frame, cm).
@@ -50,7 +50,7 @@ pub struct BackAndForthStep {
 }
 
 /// T(n) = amplitude · sin(2π (n − 1) / period + phase); t = T(n + 1) − T(n).
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Swing {
     /// Farthest point of the swing (world frame, cm).
@@ -63,7 +63,7 @@ pub struct Swing {
 }
 
 /// What displaces each feature from its rest position.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Deformation {
     /// No deformation.
@@ -76,7 +76,7 @@ pub enum Deformation {
 }
 
 /// Every feature is displaced away from an anchor by the same amount, from a list.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Anchored {
     /// The number of the feature that stays.
@@ -91,7 +91,7 @@ pub struct Anchored {
 }
 
 /// Every feature is displaced away from an anchor by the same amount, from a sinusoid.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AnchoredSinusoid {
     /// The number of the feature that stays.
@@ -121,7 +121,7 @@ pub enum Direction {
 }
 
 /// A rotation about a fixed axis: exp(axis · (angle + rate · (n − 1))) at step n.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rotation {
     /// The axis, a vector other than zero whose length is of no matter (world frame).

@@ -7,7 +7,7 @@ use super::EstimatorName;
 use super::values::{AngleSigma, GateProbability, NonNegative, Positive, Truncation};
 
 /// The noise of the world: Gaussian, independent in each component. 0 is no noise.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Noise {
     /// Of each Euler angle of a motion of the robot, each step: w^Ω of eq. (2) (rad).
@@ -41,7 +41,7 @@ pub enum DeformationNoise {
 }
 
 /// Where the filter assumes another noise than the world has.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Filter {
     /// Of each Euler angle of a motion of the robot, each step (rad). Default: that of `noise`.

@@ -17,7 +17,7 @@ const FEATURES: FeatureCount = FeatureCount::default_of(50);
 const FEATURE_SEED: Seed = Seed::default_of(1);
 
 /// The object at rest, in world coordinates.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Object {
     /// Features at given places.
@@ -40,7 +40,7 @@ impl Object {
 }
 
 /// Features at given places.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Points {
     /// Where each feature rests (world frame, cm): 4 to 2000, all different, not all in one plane.
@@ -53,7 +53,7 @@ pub struct Points {
 }
 
 /// A mesh file, from whose vertices features are picked.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
     /// An STL, OBJ or PLY file of a closed surface; its path counts from the scenario's folder.
@@ -87,7 +87,7 @@ impl Mesh {
 }
 
 /// The heart that the code generates, from whose vertices features are picked.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Phantom {
     /// Features to pick from the vertices on the convex hull.
@@ -102,7 +102,7 @@ pub struct Phantom {
 }
 
 /// How a mesh given with `--mesh` is brought into this world.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MeshPlacement {
     /// Unit of the file's coordinates.

@@ -3,13 +3,13 @@
 use std::fmt;
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::Named;
 use super::values::{Fraction, Many, NonNegative, Positive, Vec3};
 
 /// Parameters of every planner, so that all can be compared in this world.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Planners {
     /// The predetermined path: the same control at every step.
@@ -24,7 +24,7 @@ pub struct Planners {
 }
 
 /// The predetermined path: the same control at every step.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Predetermined {
     /// Ω: the change of roll, pitch and yaw (degrees).
@@ -34,7 +34,7 @@ pub struct Predetermined {
 }
 
 /// The local planner: the action after which the trace of the covariance is smallest.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Local {
     /// The feature measurement's sigma, assumed in planning only (cm). Default: the filter's.
@@ -47,7 +47,7 @@ pub struct Local {
 
 /// How the path through viewpoints is found and followed, by the global planner and the combined
 /// one.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Global {
     /// K of Algorithm 2: sets of viewpoints drawn, the best of which is kept. Without meaning if the
@@ -63,7 +63,7 @@ pub struct Global {
 
 /// The combined planner: as the local one, among the safe actions that lead nearest to the next
 /// viewpoint. Exactly one of `nearest_fraction` and `nearest_count` has to be given.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = [
     { "required": ["nearest_fraction"] },
@@ -104,7 +104,9 @@ impl Combined {
 }
 
 /// The planners, in the order of the paper's tables.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize, JsonSchema)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum PlannerName {
     /// The same control at every step.

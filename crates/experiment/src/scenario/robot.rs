@@ -1,12 +1,12 @@
 //! `[sensor]` and `[robot]`: what the robot sees, where it starts, how it can move.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::values::{Finite, List, NonNegative, Positive, Vec3};
 
 /// What the robot sees.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sensor {
     /// Features farther away than this are not seen (cm).
@@ -17,7 +17,7 @@ pub struct Sensor {
 }
 
 /// The robot, its start and its actions.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Robot {
     /// Orientation at step 1: roll, pitch and yaw (degrees).
@@ -34,7 +34,7 @@ pub struct Robot {
 
 /// What the planners choose from: all combinations of the five lists, at most 100 000. An action
 /// turns by Ω = (roll, pitch, yaw) and moves by v = R(Ω) (dx, 0, dz), section III-D.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Actions {
     /// Changes of roll (degrees).

@@ -2,12 +2,12 @@
 
 use nalgebra::Point3;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::values::{List, Positive, Vec3};
 
 /// Where viewpoints come from.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Viewpoints {
     /// Chosen in each run from the candidates of a grid, Algorithm 2.
@@ -17,7 +17,7 @@ pub enum Viewpoints {
 }
 
 /// Chosen in each run from the candidates of a grid, Algorithm 2; a block may be left out.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("dependencies" = {
     "excluded_min_cm": ["excluded_max_cm"],
@@ -40,7 +40,7 @@ pub struct Grid {
 }
 
 /// The same in every run.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fixed {
     /// The viewpoints in the order in which they are visited (world frame, cm).

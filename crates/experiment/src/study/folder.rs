@@ -1,8 +1,8 @@
 //! The folder of a study: locked, of one plan, without litter.
 
 use std::collections::HashSet;
-use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Read, Write};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -12,14 +12,17 @@ use super::plan::FORMAT;
 use super::record::RecordFile;
 use super::{StudyPlan, StudyUnit};
 use crate::ExperimentError;
-use crate::diagnostics::{InputError, read_text};
-use crate::output::{AtomicFile, make_folder, not_writable, prepare_folder};
+use crate::diagnostics::{InputError, is_there, read_text};
+use crate::output::{AtomicFile, FolderLock, make_folder, prepare_folder};
+use crate::run::refuse_run;
 
 const LOCK: &str = "study.lock";
 const PLAN: &str = "plan.json";
 const RECORDS: &str = "records";
 /// Larger plans are not ours: a hundred thousand points take some tens of megabytes.
 const LARGEST_PLAN: u64 = 1 << 28;
+const WAIT: &str = "wait until it has ended, or stop it, and give the command again: it goes on with what is there; \
+    or give another folder with --out";
 const ANOTHER_FOLDER: &str = "give another folder with --out, or one that does not exist yet";
 
 /// The folder of a study, locked by this process.
@@ -32,15 +35,15 @@ pub(super) struct StudyFolder {
     plan_is_there: bool,
     /// Checksum of the plan, to tell its records from those of another study.
     study: String,
-    /// Held until this is dropped. The system gives it back too when the process dies.
-    _lock: File,
+    _lock: FolderLock,
 }
 
 impl StudyFolder {
     /// Locks the folder, which is made if need be, and makes sure that it holds this study or none.
     pub(super) fn lock(path: &Path, plan: &StudyPlan<'_>) -> Result<Self, ExperimentError> {
         make_folder(path)?;
-        let lock = locked(path)?;
+        refuse_run(path)?;
+        let lock = FolderLock::take(path, LOCK, WAIT)?;
         let records = path.join(RECORDS);
         let json = plan.to_json();
         let plan_is_there = same_plan(path, &json)?;
@@ -77,57 +80,6 @@ pub(super) fn checksum(bytes: &[u8]) -> String {
     format!("{:08x}", crc32fast::hash(bytes))
 }
 
-/// Takes the lock of a folder, and says in its file who is at work.
-fn locked(folder: &Path) -> Result<File, ExperimentError> {
-    let path = folder.join(LOCK);
-    let mut options = OpenOptions::new();
-    options.read(true).write(true).create(true).truncate(false);
-    let lock = options
-        .open(&path)
-        .map_err(|error| not_writable(folder, &error))?;
-    let cause = match lock.try_lock() {
-        Ok(()) => {
-            sign(&lock);
-            return Ok(lock);
-        }
-        Err(cause) => cause,
-    };
-    let shown = folder.display();
-    Err(match cause {
-        TryLockError::WouldBlock => {
-            let mut holder = String::new();
-            let read = lock.take(20).read_to_string(&mut holder);
-            let holder = match (read, holder.trim_end().parse::<u32>()) {
-                (Ok(_), Ok(process)) => format!(" (process {process})"),
-                _ => String::new(),
-            };
-            let message = format!("another adslam{holder} is at work in {shown}");
-            InputError::about_file(folder, message)
-                .with_help(
-                    "wait until it has ended, or stop it, and give the command again: it goes on with what is \
-                     there; or give another folder with --out",
-                )
-                .into()
-        }
-        TryLockError::Error(cause) if cause.kind() == io::ErrorKind::Unsupported => {
-            let message = format!("the file system of {shown} cannot lock files: {cause}");
-            InputError::about_file(folder, message)
-                .with_help("give a folder on a local disk with --out")
-                .into()
-        }
-        TryLockError::Error(cause) => ExperimentError::output(&path)(cause),
-    })
-}
-
-/// Writes the number of this process for whoever comes second to read. It is always as long, so that one write
-/// replaces that of a process which died here; the lock holds without it.
-fn sign(mut lock: &File) {
-    let signed = lock.write_all(format!("{:<10}\n", std::process::id()).as_bytes());
-    if signed.is_err() {
-        let _ = lock.set_len(0);
-    }
-}
-
 /// Whether the folder holds the study of this plan; not, if it holds none.
 fn same_plan(folder: &Path, plan: &Value) -> Result<bool, InputError> {
     let path = folder.join(PLAN);
@@ -153,11 +105,6 @@ fn same_plan(folder: &Path, plan: &Value) -> Result<bool, InputError> {
             about(format!("{shown} holds another study: {difference}"))
         }
     }
-}
-
-/// Whether there is anything at this path.
-pub(super) fn is_there(path: &Path) -> Result<bool, InputError> {
-    fs::exists(path).map_err(|error| InputError::unreadable(path, error))
 }
 
 /// Refuses a folder of records with files of other names. Hidden ones are the system's business.

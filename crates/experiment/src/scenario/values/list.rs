@@ -85,7 +85,8 @@ impl JsonSchema for Vec3 {
 }
 
 /// Three values, no more and no fewer: serde's own arrays let toml drop a fourth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(transparent)]
 pub struct Triple<T>(pub [T; 3]);
 
 impl<T> Deref for Triple<T> {
@@ -135,7 +136,8 @@ impl<T: JsonSchema> JsonSchema for Triple<T> {
 }
 
 /// A list of at least one element and at most [`LONGEST_LIST`].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(transparent)]
 pub struct List<T>(Vec<T>);
 
 impl<T> Deref for List<T> {

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use super::Folder;
-use crate::metrics::{DecisionTimes, RunSummary};
+use crate::metrics::RunSummary;
 use crate::sweep::{SweepPlan, SweepRecord, SweepResults};
 
 /// A run whose numbers follow from its seed and an offset.
@@ -33,7 +33,7 @@ fn record(seed: u64, offset: f64) -> SweepRecord {
         steps_inside_object: 0,
         steps_below_clearance: 0,
         compromised_decisions: 0,
-        decision_ms: DecisionTimes::default(),
+        decision_ms: None,
     };
     let warnings = vec!["polygon: no viewpoint sees features 3".to_owned()];
     SweepRecord { summary, warnings }
