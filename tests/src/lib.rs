@@ -1,5 +1,6 @@
 //! Helpers of the tests that span the crates; the tests themselves are in `tests/`.
 
+pub mod golden_runs;
 pub mod readers;
 
 use std::fs;

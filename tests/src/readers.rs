@@ -10,12 +10,12 @@ use std::sync::Arc;
 
 use adslam_experiment::config::{Config, Published};
 use adslam_experiment::diagnostics::InputError;
-use adslam_experiment::log::{EstimateLine, FilterChoice, Replay};
+use adslam_experiment::log::{EstimateLine, FilterChoice, GateChoice, Replay};
 use adslam_experiment::run::{RunHistory, Setup};
-use adslam_experiment::scenario::values::GateProbability;
+use adslam_experiment::scenario::values::{GateProbability, NonNegative};
 use adslam_experiment::scenario::{EstimatorName, LengthUnit, Named, Object, Scenario};
 use adslam_experiment::sweep::{Sweep, SweepPlan};
-use adslam_experiment::{ExperimentError, MeshReport};
+use adslam_experiment::{ExperimentError, MeshReport, MeshUse};
 use adslam_surface::{Clearance, Fan, MeshFile, MeshFormat, Surface, Topology, pick_features};
 use nalgebra::Point3;
 
@@ -167,8 +167,8 @@ fn log(bytes: &[u8]) {
         filter(
             bytes,
             FilterChoice {
-                estimator,
-                gate_probability: GateProbability::new(0.99).ok(),
+                estimator: Some(estimator),
+                gate: GateProbability::new(0.99).map_or(GateChoice::All, GateChoice::Probability),
             },
         );
     }
@@ -215,7 +215,12 @@ fn mesh(format: MeshFormat, bytes: &[u8]) {
         Err(error) => return drop(error.to_string()),
     };
     let mesh = file.mesh.clone();
-    let report = MeshReport::of(file, Path::new("mesh"), LengthUnit::Cm, FEATURES);
+    let wanted = MeshUse {
+        unit: LengthUnit::Cm,
+        join_within_cm: NonNegative::default(),
+        features: FEATURES,
+    };
+    let report = MeshReport::of(file, Path::new("mesh"), wanted);
     drop(report.to_string());
     let picked = pick_features(&mesh, FEATURES, 1).unwrap_or_default();
     if report.serves {

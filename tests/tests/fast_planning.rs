@@ -43,7 +43,7 @@ impl Plain<'_> {
             let seen = features_seen_in_pose(&model.sensor, pose, after);
             let seen: Vec<PlannedMeasurement> = seen
                 .into_iter()
-                .map(|feature| PlannedMeasurement::isotropic(feature, sigma))
+                .map(|feature| PlannedMeasurement::isotropic(feature, sigma).unwrap())
                 .collect();
             direct.after(control, &seen).unwrap()
         };

@@ -44,10 +44,9 @@ fn the_log_gives_the_golden_estimates() {
         reader,
         &log,
         FilterChoice::default(),
-        &mut out,
         policy,
         &Interrupt::new(),
-        &mut || (),
+        &mut |line| out.add_json_line(line),
     )
     .unwrap();
     out.commit().unwrap();

@@ -141,7 +141,7 @@ fn clear_candidates_and_objectives() {
             let set = objective.add_set(&visible).unwrap();
             let measured: Vec<PlannedMeasurement> = visible
                 .iter()
-                .map(|&feature| PlannedMeasurement::isotropic(feature, sigma))
+                .map(|&feature| PlannedMeasurement::isotropic(feature, sigma).unwrap())
                 .collect();
             for trace in [
                 objective.after(&control, set).unwrap(),

@@ -7,11 +7,12 @@
 )]
 
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-use adslam_experiment::run::{Interrupt, RunRecorder, simulate};
-use adslam_experiment::scenario::{EstimatorName, Named, PlannerName};
+use adslam_experiment::run::{Interrupt, RunRecorder, RunReport, simulate};
+use adslam_experiment::scenario::{EstimatorName, LengthUnit, Named, PlannerName};
 use adslam_tests::setup;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
@@ -92,7 +93,15 @@ fn error(estimator: EstimatorName, truth: &Vector6<f64>, estimate: &Vector6<f64>
     let (angles, position) = match estimator {
         EstimatorName::EulerEkf => {
             let wrapped = |x: f64| x.sin().atan2(x.cos());
-            let angles = difference.fixed_rows::<3>(0).map(wrapped);
+            let one = difference.fixed_rows::<3>(0).map(wrapped);
+            // The same orientation by other angles.
+            let other = Vector3::new(truth[0] + PI, PI - truth[1], truth[2] + PI);
+            let other = (other - estimate.fixed_rows::<3>(0)).map(wrapped);
+            let angles = if other.norm() < one.norm() {
+                other
+            } else {
+                one
+            };
             (angles, of_position)
         }
         EstimatorName::So3Ekf => (turned, of_position),
@@ -128,9 +137,14 @@ fn pose_nees_of_every_step_and_estimator() {
         );
         let folder = tempfile::tempdir().unwrap();
         let planner = PlannerName::Local;
-        let mut recorder = RunRecorder::create(folder.path(), &setup, planner, 3).unwrap();
+        let mut recorder =
+            RunRecorder::create(folder.path(), &setup, planner, 3, LengthUnit::M).unwrap();
         let outcome = simulate(&setup, planner, 3, &Interrupt::new(), &mut recorder).unwrap();
-        recorder.commit(&outcome.summary, Vec::new()).unwrap();
+        let report = RunReport {
+            summary: &outcome.summary,
+            warnings: &outcome.warnings,
+        };
+        recorder.commit(&report, Vec::new()).unwrap();
 
         let steps = rows(&folder.path().join("steps.csv"));
         let covariances = rows(&folder.path().join("pose_covariance.csv"));

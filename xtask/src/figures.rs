@@ -9,7 +9,7 @@ use adslam_experiment::config::{Config, Selection};
 use adslam_experiment::output::prepare_folder;
 use adslam_experiment::run::{HistoryRecorder, Interrupt, RunHistory, Setup, simulate};
 use adslam_experiment::scenario::{Object, Scenario};
-use adslam_experiment::tables::{TablePlan, TablesOptions};
+use adslam_experiment::tables::TablePlan;
 use adslam_figures::{
     Figure, FigureError, boxes, comparison, coverage, environments, estimates, nees, pose_error,
 };
@@ -119,15 +119,12 @@ impl FiguresArgs {
 
     /// The box plots over many runs, from the tables' own seeds.
     fn draw_boxes(&self, interrupt: &Interrupt) -> Result<(), FigureError> {
-        let options = TablesOptions {
-            selection: Selection {
-                runs: Some(self.runs),
-                only: self.scenario.labels(),
-                mesh: self.mesh.clone(),
-            },
-            record: false,
+        let selection = Selection {
+            runs: Some(self.runs),
+            only: self.scenario.labels(),
+            mesh: self.mesh.clone(),
         };
-        let plan = TablePlan::load(&paper(), &options).map_err(ExperimentError::from)?;
+        let plan = TablePlan::load(&paper(), &selection).map_err(ExperimentError::from)?;
         eprintln!("running {} more for the box plots", plan.total_runs());
         let tables = plan.run(interrupt, &|| ());
         for experiment in &tables.experiments {

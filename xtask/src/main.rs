@@ -4,6 +4,7 @@ mod bench_report;
 mod docs;
 mod environment;
 mod figures;
+mod golden_runs;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -24,9 +25,13 @@ enum Task {
         /// Runs of each method
         #[arg(long, default_value_t = 5, value_name = "N")]
         runs: usize,
-        /// The folder to write tables.md, tables.json and report.html to
-        #[arg(long, default_value = "results", value_name = "DIR")]
-        out: PathBuf,
+        /// The folder to write tables.md, tables.json and report.html to, and to go on in. Where not given,
+        /// results/paper, with the environment and `mesh` added where they are given
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Go on with runs that another build did, and say so in the tables
+        #[arg(long)]
+        accept_build: bool,
         /// Which environment
         #[arg(long, default_value = "all")]
         scenario: Environment,
@@ -40,6 +45,9 @@ enum Task {
     BenchReport(BenchReportArgs),
     /// Renew the files made from the code: docs/scenario.md and schemas/
     Docs,
+    /// Renew tests/fixtures/golden/runs.txt, what every planner decides in whole runs. Refuses to where
+    /// decisions have changed and RESULTS_VERSION has not been raised
+    GoldenRuns,
 }
 
 fn main() -> ExitCode {
@@ -48,9 +56,11 @@ fn main() -> ExitCode {
         Task::ReproduceTables {
             runs,
             out,
+            accept_build,
             scenario,
             mesh,
         } => {
+            let out = out.unwrap_or_else(|| folder_for(scenario, mesh.is_some()));
             let args = TablesArgs {
                 config: paper(),
                 selection: SelectionArgs {
@@ -58,7 +68,8 @@ fn main() -> ExitCode {
                     only: scenario.labels(),
                     mesh,
                 },
-                out,
+                out: Some(out),
+                accept_build,
                 html: true,
                 json: false,
             };
@@ -67,6 +78,7 @@ fn main() -> ExitCode {
         Task::ReproduceFigures(args) => figures::reproduce(&args, interrupt),
         Task::BenchReport(args) => bench_report::report(&args),
         Task::Docs => docs::renew(&workspace()),
+        Task::GoldenRuns => golden_runs::renew(interrupt),
     }
 }
 
@@ -74,6 +86,18 @@ fn main() -> ExitCode {
 fn workspace() -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
     folder.unwrap_or(Path::new(".")).to_owned()
+}
+
+/// The folder of the paper's tables, another for each choice of what is run.
+fn folder_for(scenario: Environment, is_other_mesh: bool) -> PathBuf {
+    let mut name = "paper".to_owned();
+    for label in scenario.labels() {
+        name += &format!("-{label}");
+    }
+    if is_other_mesh {
+        name += "-mesh";
+    }
+    Path::new("results").join(name)
 }
 
 /// The configuration of the paper's experiments.

@@ -25,7 +25,7 @@ use crate::commands;
                   simulation, and filters recorded logs.\n\nExit codes: 0 all went well, 1 the \
                   work failed, 2 the input cannot be used, 130 stopped by a signal.",
     after_help = "Try:\n  adslam run scenarios/polygon.toml --planner combined --seed 1 --out run\n  \
-                  adslam tables configs/paper.toml --out results\n  \
+                  adslam tables configs/paper.toml\n  \
                   adslam check scenarios/*.toml configs/*.toml sweeps/*.toml\n  \
                   adslam new scenario --out mine.toml"
 )]
@@ -48,7 +48,8 @@ pub enum Command {
         features.csv   the features at the end\n  \
         truth.tum, estimate.tum   trajectories for the evo tools\n  \
         history.json   everything that adslam replay shows\n  \
-        replay.html    that, as a page to open in a browser, with --html\n\n\
+        replay.html    that, as a page to open in a browser, with --html\n  \
+        log.jsonl      the run as a log for adslam filter, with --log\n\n\
         Example:\n  \
         adslam run scenarios/heart.toml --planner local --seed 3 --out results/heart-local-3")]
     Run(RunArgs),
@@ -70,15 +71,21 @@ pub enum Command {
     #[command(
         after_help = "The log is JSON lines, a header and a line a step; docs/log.md is its \
         reference. The output has a line of estimates for each step.\n\n\
-        Example:\n  adslam filter recording.jsonl --out estimates.jsonl"
+        Example:\n  adslam filter samples/polygon.log.jsonl --out estimates.jsonl\n  \
+        gzip -dc recording.jsonl.gz | adslam filter - --out - | jq .trace"
     )]
     Filter(FilterArgs),
     /// Run everything that a configuration asks for and tabulate it
-    #[command(after_help = "Writes into the folder given with --out:\n  \
+    #[command(
+        after_help = "Every finished run is kept in a file. Stopped or killed, the same command goes on \
+        with what is missing. Writes into the folder given with --out:\n  \
         tables.md, tables.json   the tables, and every run\n  \
         report.html, replays/    a page with figures and replays to open in a browser, with \
-        --html\n\n\
-        Example:\n  adslam tables configs/accumulating.toml --runs 20 --out results/accumulating")]
+        --html\n  \
+        plan.json, records/, study.lock   what it goes on from\n\n\
+        Example:\n  adslam tables configs/accumulating.toml --runs 20 \
+        --out results/twenty"
+    )]
     Tables(TablesArgs),
     /// Vary keys of a scenario, run every planner at each point, and compare them
     #[command(
@@ -100,7 +107,8 @@ pub enum Command {
         consistency.md, consistency.json   the verdicts, for people and for machines\n  \
         verdicts, steps, features (.csv, .jsonl)   as tables: over all steps, step by step, and for each feature\n  \
         figures/                           NEES and NIS against the step\n\n\
-        Example:\n  adslam consistency configs/consistency.toml --runs 20 --out results/consistency"
+        Example:\n  adslam consistency configs/consistency.toml --runs 20 \
+        --out results/nees-20"
     )]
     Consistency(ConsistencyArgs),
     /// Say what a mesh file holds and whether it will serve as an object

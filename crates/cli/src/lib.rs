@@ -3,6 +3,7 @@
 mod answer;
 mod args;
 mod commands;
+mod estimates;
 mod exit;
 mod interrupt;
 mod named;

@@ -15,10 +15,12 @@ pub(crate) fn bar(total: usize, unit: &str) -> ProgressBar {
     bar
 }
 
-/// A bar over the bytes of a file, with the time left; of a pipe, whose size is not known, a count.
-/// Its message stands behind it.
-pub(crate) fn reading(file: &File) -> ProgressBar {
-    let size = file.metadata().map_or(0, |metadata| metadata.len());
+/// A bar over the bytes of a file, with the time left; of a pipe or the standard input, whose size is not
+/// known, a count. Its message stands behind it.
+pub(crate) fn reading(file: Option<&File>) -> ProgressBar {
+    let size = file
+        .and_then(|file| file.metadata().ok())
+        .map_or(0, |metadata| metadata.len());
     let (bar, template) = if size > 0 {
         let template = "{bar:30} {bytes}/{total_bytes}, {msg}, {elapsed} gone, {eta} left";
         (ProgressBar::new(size), template)

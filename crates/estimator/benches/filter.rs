@@ -23,7 +23,7 @@ use criterion::{
     BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
 };
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, Par};
+use faer::{Accum, Mat, Par, Side};
 use nalgebra::Vector3;
 
 /// The smallest case that threads are tried on; smaller ones stay on one.
@@ -93,6 +93,45 @@ fn structure_update(criterion: &mut Criterion) {
         if case.name == "polygon" {
             bench_textbook(&mut group, case, &start, &[]);
         }
+    }
+}
+
+/// A pair of features that is another one at each step, beside the eigenvectors of its graph, which this
+/// took at each step before the elimination.
+fn changing_pair(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("changing_pair");
+    for case in CASES {
+        let start = belief(case).unwrap();
+        group.throughput(conditioning(case.dim(), 3));
+        let (mut ekf, mut belief) = (Ekf::new(NOISE).unwrap(), start.clone());
+        let mut n = 0;
+        group.bench_function(BenchmarkId::new("fast", case.name), |bencher| {
+            bencher.iter(|| {
+                n = (n + 1) % (case.features - 1);
+                let features = &belief.state.features;
+                let pair = PairMeasurement {
+                    from: FeatureId(n),
+                    to: FeatureId(n + 1),
+                    z: features[n + 1] - features[n],
+                };
+                let measurements = Measurements {
+                    features: &[],
+                    structure: StructureMeasurements::Pairs(&[pair]),
+                };
+                ekf.update(&mut belief, &measurements).unwrap()
+            });
+        });
+        let mut laplacian = Mat::<f64>::zeros(case.features, case.features);
+        for (i, j, entry) in [(0, 0, 1.0), (1, 1, 1.0), (0, 1, -1.0), (1, 0, -1.0)] {
+            laplacian[(i, j)] = entry;
+        }
+        group.bench_function(BenchmarkId::new("eigenvectors", case.name), |bencher| {
+            bencher.iter(|| {
+                black_box(&laplacian)
+                    .self_adjoint_eigen(Side::Lower)
+                    .unwrap()
+            });
+        });
     }
 }
 
@@ -171,6 +210,6 @@ criterion_group! {
         .sample_size(10)
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_millis(600));
-    targets = matrix_product, feature_update, structure_update, ekf_step
+    targets = matrix_product, feature_update, structure_update, changing_pair, ekf_step
 }
 criterion_main!(benches);

@@ -1,5 +1,7 @@
 //! The joint covariance: the one place where it changes.
 
+use std::ops::Range;
+
 use adslam_models::{FeatureId, MotionJacobian, POSE_DIM, feature_offset, state_dim};
 use faer::{Mat, MatMut, MatRef};
 use nalgebra::{Matrix3, Matrix6};
@@ -91,6 +93,12 @@ impl Covariance {
     #[must_use]
     pub fn variances(&self) -> Vec<f64> {
         (0..self.dim()).map(|i| self.matrix[(i, i)]).collect()
+    }
+
+    /// The largest variance of the features with these numbers, cm².
+    pub(crate) fn largest_feature_variance(&self, features: Range<usize>) -> f64 {
+        let entries = POSE_DIM + 3 * features.start..POSE_DIM + 3 * features.end;
+        entries.map(|i| self.matrix[(i, i)]).fold(0.0, f64::max)
     }
 
     /// The sum of the variances: the planner's objective, eq. (6).

@@ -5,6 +5,8 @@ use std::marker::PhantomData;
 use adslam_models::{Control, FeatureId, State, motion_jacobian, predicted_pose};
 use nalgebra::{Matrix3, Vector3};
 
+use crate::digits::resolved_given_earlier;
+use crate::error_state::check_conversion;
 use crate::feature_update::FeatureUpdate;
 use crate::structure_update::StructureUpdate;
 use crate::workspace::Workspace;
@@ -33,8 +35,8 @@ pub struct Measurements<'a> {
 
 /// The extended Kalman filter of Algorithm 1, with the error coordinates `E`.
 ///
-/// It keeps the memory that its steps need: from the second step on, states of the same size and
-/// structure measurements of the same pairs, on one thread, allocate nothing. For a state of n
+/// It keeps the memory that its steps need: from the second step on, states of the same size on one
+/// thread allocate nothing, whichever pairs their structure measurements are of. For a state of n
 /// entries that is room for about 200 n numbers, less than a tenth of a covariance for 1000
 /// features, and for a graph of some of the pairs three M × M matrices more.
 #[derive(Clone, Debug)]
@@ -113,6 +115,24 @@ impl<E: ErrorState> Ekf<E> {
         &self.noise
     }
 
+    /// What was known of the position apart from the orientation, or is added to it by noise, must still be there
+    /// after a motion: a long way multiplies the uncertainty of the orientation into the position's.
+    fn check_motion_resolved(
+        &self,
+        before: [bool; 6],
+        belief: &Belief,
+    ) -> Result<(), EstimatorError> {
+        let pose = belief.covariance.pose();
+        let after = resolved_given_earlier(&pose);
+        for index in 3..6 {
+            if (before[index] || self.noise.translation_sigma > 0.0) && !after[index] {
+                let value = pose[(index, index)];
+                return Err(EstimatorError::LostInMotion { index, value });
+            }
+        }
+        Ok(())
+    }
+
     /// Moves the estimate by the correction in the coordinates of `E`, and the covariance with it.
     fn correct(
         &mut self,
@@ -127,11 +147,10 @@ impl<E: ErrorState> Ekf<E> {
         if self.reset.is_empty() {
             return Ok(());
         }
-        if !self.reset.iter().flatten().all(|x| x.is_finite()) {
-            return Err(EstimatorError::NotFinite {
-                what: "orientation in Euler angles (pitch ±90°)",
-            });
-        }
+        check_conversion(
+            self.predicted.pose.orientation,
+            belief.state.pose.orientation,
+        )?;
         let Workspace {
             selection, columns, ..
         } = &mut self.workspace;
@@ -153,9 +172,15 @@ impl<E: ErrorState> Estimator for Ekf<E> {
     ) -> Result<(), EstimatorError> {
         check_motion(belief, control, feature_motion)?;
         let jacobian = motion_jacobian(&belief.state.pose, control);
+        let before = resolved_given_earlier(&belief.covariance.pose());
         belief.state.pose = predicted_pose(&belief.state.pose, control);
         belief.state.move_features(feature_motion);
         belief.covariance.propagate(&jacobian, &self.noise);
+        self.check_motion_resolved(before, belief)?;
+        if E::CONVERTS_ANGLES {
+            let orientation = belief.state.pose.orientation;
+            check_conversion(orientation, orientation)?;
+        }
         Ok(())
     }
 

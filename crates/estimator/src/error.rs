@@ -3,6 +3,12 @@
 use adslam_models::FeatureId;
 use thiserror::Error;
 
+/// An entry of the pose by name.
+fn pose_entry(index: &usize) -> &'static str {
+    const NAMES: [&str; 6] = ["roll", "pitch", "yaw", "x", "y", "z"];
+    NAMES.get(*index).copied().unwrap_or("?")
+}
+
 /// A filter step that could not be done. The belief it was asked to change must not be used further.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum EstimatorError {
@@ -28,6 +34,74 @@ pub enum EstimatorError {
         index: usize,
         /// The variance found there.
         value: f64,
+    },
+    /// Measurements that would leave a covariance of which fewer than six digits are right.
+    #[error(
+        "the {what} are too precise for what is known before them: they make a standard deviation up to \
+         {ratio:.1e} times smaller while others that go with it stay as large, and with numbers of 16 digits \
+         more than {largest:.1e} times leaves fewer than 6 right. Make the sigma of the {what} larger, or the \
+         sigmas of the first estimate and of the motion smaller"
+    )]
+    TooPrecise {
+        /// Which measurements.
+        what: &'static str,
+        /// How many times smaller they make a standard deviation.
+        ratio: f64,
+        /// How many times smaller they may make it.
+        largest: f64,
+    },
+    /// A motion after which the covariance of the pose has fewer than six right digits.
+    #[error(
+        "the robot moves too far for how little its orientation is known: the variance of state entry {index} \
+         becomes {value:.1e}, of which what is known apart from the orientation is lost in rounding. Make \
+         shorter steps, or the rotation sigma and the first covariance of the orientation smaller, or the \
+         translation sigma larger"
+    )]
+    LostInMotion {
+        /// Which entry of the state.
+        index: usize,
+        /// Its variance.
+        value: f64,
+    },
+    /// An orientation so near to pitch ±90° that a covariance cannot be taken from angles to rotations and back.
+    #[error(
+        "the estimated pitch is {pitch_deg:.4}°, too near to 90°: Euler angles cannot follow there, and taking the \
+         covariance from one orientation to the next would change it by {loss:.0e} of its value, more than 1e-6. \
+         Keep the pitch away from ±90° (limits of the pitch, other axes), or use the Euler-angle estimator, which \
+         takes angles as they are"
+    )]
+    PitchNearRightAngle {
+        /// The estimated pitch, degrees.
+        pitch_deg: f64,
+        /// The part of a covariance that rounding changes.
+        loss: f64,
+    },
+    /// Two entries of a first covariance of the pose that cannot go together.
+    #[error(
+        "the first covariance of the pose has {covariance} between {} and {} (entries {first} and {second}), more \
+         than {largest}, the root of the product of their variances: no two numbers vary together like that. \
+         Make it smaller, or the variances larger",
+        pose_entry(.first), pose_entry(.second)
+    )]
+    BadCorrelation {
+        /// One entry of the pose.
+        first: usize,
+        /// Another.
+        second: usize,
+        /// Their covariance.
+        covariance: f64,
+        /// The largest that it may be, either way.
+        largest: f64,
+    },
+    /// A first covariance of the pose of which each pair of entries is right by itself, but not all together.
+    #[error(
+        "the first covariance of the pose is not positive semidefinite: its correlation matrix has the \
+         eigenvalue {smallest:.3}. Some sum of entries would have a negative variance; make the covariances \
+         between different entries smaller"
+    )]
+    NotSemidefinite {
+        /// The smallest eigenvalue of the correlations.
+        smallest: f64,
     },
     /// An input holds NaN or an infinity.
     #[error("the {what} is not finite; the filter needs finite numbers")]

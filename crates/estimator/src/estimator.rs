@@ -15,8 +15,8 @@ pub trait Estimator: Send {
     /// `feature_motion` is what the filter knows of each feature's motion, r_t t + r_d d, cm, world.
     ///
     /// # Errors
-    /// A covariance that is not of the state's features, a wrong number of displacements, or NaN or
-    /// infinity in an input.
+    /// A covariance that is not of the state's features, a wrong number of displacements, NaN or infinity in an
+    /// input, or a result of which fewer than six digits are right.
     fn predict(
         &self,
         belief: &mut Belief,
@@ -28,7 +28,8 @@ pub trait Estimator: Send {
     ///
     /// # Errors
     /// A covariance that is not of the state's features or has broken down, measurements of unknown or
-    /// repeated features, or non-finite numbers; the belief must then not be used further.
+    /// repeated features, non-finite numbers, or a result of which fewer than six digits are right; the belief must
+    /// then not be used further.
     fn update(
         &mut self,
         belief: &mut Belief,

@@ -6,6 +6,7 @@ use adslam_models::{
 };
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Point3, Vector3, Vector6};
 
+use crate::digits::{Stages, is_resolved};
 use crate::ekf::check_feature;
 use crate::linear_algebra::set_product;
 use crate::workspace::{Workspace, add_scaled, block_rows};
@@ -49,8 +50,18 @@ impl Sighting {
         feature_offset(self.feature)
     }
 
-    /// yᵀS⁻¹y of this measurement alone, `pose` being the pose's part of the covariance; nothing if S is not
-    /// positive definite.
+    /// The smallest variance of O on any axis, cm².
+    fn smallest_noise(&self) -> f64 {
+        let noise = &self.noise;
+        if (noise - Matrix3::from_diagonal(&noise.diagonal())).amax() == 0.0 {
+            noise.diagonal().min()
+        } else {
+            noise.symmetric_eigenvalues().min()
+        }
+    }
+
+    /// yᵀS⁻¹y of this measurement alone, `pose` being the pose's part of the covariance; nothing if S does not
+    /// have six right digits.
     fn squared_distance(&self, covariance: &Covariance, pose: &Matrix6<f64>) -> Option<f64> {
         let FeatureMeasurementJacobians {
             pose: of_pose,
@@ -59,11 +70,16 @@ impl Sighting {
         let offset = self.offset();
         let cross = Matrix3x6::from_fn(|i, k| covariance.entry(offset + i, k));
         let mixed = of_feature * cross * of_pose.transpose();
-        let s = of_pose * pose * of_pose.transpose()
-            + mixed
-            + mixed.transpose()
-            + of_feature * covariance.feature(self.feature) * of_feature.transpose()
-            + self.noise;
+        let (by_pose, by_feature) = (
+            of_pose * pose * of_pose.transpose(),
+            of_feature * covariance.feature(self.feature) * of_feature.transpose(),
+        );
+        let s = by_pose + mixed + mixed.transpose() + by_feature + self.noise;
+        // Where pose and feature move together the terms cancel.
+        let magnitude = by_pose.trace() + by_feature.trace();
+        if !is_resolved(s.symmetric_eigenvalues().min(), magnitude, covariance.dim()) {
+            return None;
+        }
         let whitened = s.cholesky()?.solve(&self.innovation);
         Some(self.innovation.dot(&whitened))
     }
@@ -187,13 +203,33 @@ pub(crate) fn condition_on_features(
 ) -> Result<(), EstimatorError> {
     let dim = covariance.dim();
     workspace.prepare(dim, 1);
-    for block in sightings.chunks(block_rows(dim) / 3) {
-        workspace.start_block(3 * block.len());
-        set_products(covariance, block, workspace);
-        set_innovations(block, workspace);
-        workspace.condition(covariance, INNOVATION_COVARIANCE, parallelism)?;
+    let mut stages = Stages::new("feature measurements", dim);
+    while let Some(weight) = stages.next(gain(covariance, sightings))? {
+        for block in sightings.chunks(block_rows(dim) / 3) {
+            workspace.start_block(3 * block.len());
+            set_products(covariance, block, workspace);
+            set_innovations(block, weight, workspace);
+            workspace.condition(covariance, INNOVATION_COVARIANCE, parallelism)?;
+        }
     }
     Ok(())
+}
+
+/// How many times smaller the sightings can make a variance: all of them that of the pose, each that of its
+/// feature.
+fn gain(covariance: &Covariance, sightings: &[Sighting]) -> f64 {
+    let mut of_pose = Vector6::zeros();
+    let mut of_features = 0.0_f64;
+    for sighting in sightings {
+        let noise = sighting.smallest_noise();
+        let squares = sighting.jacobian.pose.map(|entry| entry * entry);
+        of_pose += squares.row_sum().transpose() / noise;
+        let feature = sighting.feature.0;
+        let variance = covariance.largest_feature_variance(feature..feature + 1);
+        of_features = of_features.max(variance / noise);
+    }
+    let pose = covariance.pose().diagonal();
+    of_pose.component_mul(&pose).max().max(of_features)
 }
 
 /// P Hᵀ of one block: for all rows the pose's part, then each feature's.
@@ -228,8 +264,8 @@ fn set_products(covariance: &Covariance, block: &[Sighting], workspace: &mut Wor
     }
 }
 
-/// S and the innovations of one block whose P Hᵀ is set.
-fn set_innovations(block: &[Sighting], workspace: &mut Workspace) {
+/// S, with the noise O/`weight`, and the innovations of one block whose P Hᵀ is set.
+fn set_innovations(block: &[Sighting], weight: f64, workspace: &mut Workspace) {
     let corrected_pose = Vector6::from_fn(|k, _| workspace.correction(k));
     for (m, sighting) in block.iter().enumerate() {
         let (offset, jacobian) = (sighting.offset(), &sighting.jacobian);
@@ -249,7 +285,8 @@ fn set_innovations(block: &[Sighting], workspace: &mut Workspace) {
         }
         for b in 0..3 {
             for a in 0..3 {
-                workspace.innovation_covariance[(3 * m + a, 3 * m + b)] += sighting.noise[(a, b)];
+                workspace.innovation_covariance[(3 * m + a, 3 * m + b)] +=
+                    sighting.noise[(a, b)] / weight;
             }
         }
     }

@@ -12,6 +12,7 @@
 mod belief;
 mod buffer;
 mod covariance;
+mod digits;
 mod ekf;
 mod error;
 mod error_state;

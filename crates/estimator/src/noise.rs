@@ -18,7 +18,8 @@ pub struct FilterNoise {
 }
 
 impl FilterNoise {
-    /// Checks that motion sigmas are finite and ≥ 0 and that measurement sigmas are finite and > 0.
+    /// Checks that motion sigmas are at least 0 and measurement sigmas above it, and that the squares of those that
+    /// are not 0 are numbers that can be computed with.
     ///
     /// # Errors
     /// [`EstimatorError::BadSigma`] names the first that is not.
@@ -36,28 +37,43 @@ impl FilterNoise {
             ),
         ];
         for (what, value) in motion {
-            if !(value.is_finite() && value >= 0.0) {
-                let requirement = "finite and not negative";
-                return Err(EstimatorError::BadSigma {
-                    what,
-                    value,
-                    requirement,
-                });
-            }
+            check_sigma(what, value, Zero::Allowed)?;
         }
         for (what, value) in measurement {
-            // Its square is divided by, so it must not underflow.
-            if !(value.is_finite() && value * value > f64::MIN_POSITIVE) {
-                let requirement = "finite and greater than zero";
-                return Err(EstimatorError::BadSigma {
-                    what,
-                    value,
-                    requirement,
-                });
-            }
+            check_sigma(what, value, Zero::Refused)?;
         }
         Ok(())
     }
+}
+
+/// Whether a sigma may be zero.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Zero {
+    Allowed,
+    /// Its square is divided by.
+    Refused,
+}
+
+/// A sigma must not be negative, and its square must be a number that can be computed with.
+pub(crate) fn check_sigma(
+    what: &'static str,
+    value: f64,
+    zero: Zero,
+) -> Result<(), EstimatorError> {
+    let squares = f64::MIN_POSITIVE..f64::MAX;
+    let allowed = value == 0.0 && zero == Zero::Allowed;
+    if allowed || (value > 0.0 && squares.contains(&(value * value))) {
+        return Ok(());
+    }
+    let requirement = match zero {
+        Zero::Allowed => "0, or a number above it from about 1e-153 to 1e154",
+        Zero::Refused => "a number above 0, from about 1e-153 to 1e154",
+    };
+    Err(EstimatorError::BadSigma {
+        what,
+        value,
+        requirement,
+    })
 }
 
 #[cfg(test)]
@@ -85,6 +101,22 @@ mod tests {
             },
             FilterNoise {
                 feature_measurement_sigma: 0.0,
+                ..good
+            },
+            FilterNoise {
+                feature_measurement_sigma: -0.1,
+                ..good
+            },
+            FilterNoise {
+                structure_measurement_sigma: -0.5,
+                ..good
+            },
+            FilterNoise {
+                structure_measurement_sigma: 1e-170,
+                ..good
+            },
+            FilterNoise {
+                feature_motion_sigma: 1e160,
                 ..good
             },
             FilterNoise {

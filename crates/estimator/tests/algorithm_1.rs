@@ -3,7 +3,7 @@
 mod common;
 
 use adslam_estimator::{
-    Belief, Ekf, Estimator, FeatureMeasurement, Measurements, PairMeasurement,
+    Belief, Covariance, Ekf, Estimator, FeatureMeasurement, Measurements, PairMeasurement,
     StructureMeasurements,
 };
 use adslam_models::{Control, FeatureId, Pose, feature_measurement};
@@ -245,10 +245,11 @@ fn measurements_that_cannot_be_used_are_refused() {
         .predict(&mut belief, &infinite, &[Vector3::zeros(); 2])
         .unwrap_err();
     assert_eq!(error, E::NotFinite { what: "control" });
-    let mut indefinite = Matrix6::identity();
-    indefinite[(0, 1)] = 50.0;
-    indefinite[(1, 0)] = 50.0;
-    let mut broken = Belief::initial(Pose::default(), features.clone(), &indefinite, 0.1).unwrap();
+    let mut broken = fresh();
+    broken.covariance = Covariance::from_lower(12, |i, j| match (i, j) {
+        (1, 0) => 50.0,
+        _ => f64::from(u8::from(i == j)),
+    });
     let measurement = [seen(0, 1.0), seen(1, 1.0)];
     let measurements = Measurements {
         features: &measurement,

@@ -65,7 +65,9 @@ fn textbook(
 fn isotropic(visible: &[FeatureId]) -> Vec<PlannedMeasurement> {
     visible
         .iter()
-        .map(|&f| PlannedMeasurement::isotropic(f, NOISE.feature_measurement_sigma))
+        .map(|&f| {
+            PlannedMeasurement::isotropic(f, NOISE.feature_measurement_sigma).expect("a sigma")
+        })
         .collect()
 }
 

@@ -4,13 +4,13 @@ mod common;
 mod filters;
 
 use adslam_estimator::{
-    Belief, Covariance, EstimatorError, FeatureMeasurement, Measurements, PairMeasurement,
-    StructureMeasurements,
+    Belief, Covariance, EstimatorError, FeatureMeasurement, FilterNoise, Measurements,
+    PairMeasurement, StructureMeasurements,
 };
-use adslam_models::{FeatureId, POSE_DIM, State, feature_measurement, feature_offset};
+use adslam_models::{FeatureId, POSE_DIM, Pose, State, feature_measurement, feature_offset};
 use common::{NOISE, assert_close, covariance_matrix};
 use filters::{Filter, filters};
-use nalgebra::Vector3;
+use nalgebra::{Matrix6, Point3, Vector3, Vector6};
 use proptest::prelude::*;
 
 /// More than the filter takes in one block of measurements.
@@ -81,6 +81,86 @@ fn pairs() -> impl Strategy<Value = Vec<PairMeasurement>> {
 /// The numbers of all features in any order.
 fn any_order() -> impl Strategy<Value = Vec<usize>> {
     Just((0..COUNT).collect::<Vec<_>>()).prop_shuffle()
+}
+
+/// A sigma that a scenario may state, as likely in each power of ten.
+fn sigma() -> impl Strategy<Value = f64> {
+    (-9.0..6.0).prop_map(|exponent: f64| 10_f64.powf(exponent))
+}
+
+fn noise() -> impl Strategy<Value = FilterNoise> {
+    (prop::array::uniform4(sigma()), -9.0..0.5).prop_map(|(sigmas, angle): (_, f64)| FilterNoise {
+        rotation_sigma: 10_f64.powf(angle),
+        translation_sigma: sigmas[0],
+        feature_motion_sigma: sigmas[1],
+        feature_measurement_sigma: sigmas[2],
+        structure_measurement_sigma: sigmas[3],
+    })
+}
+
+/// Whether it says that numbers of 16 digits do not hold the result.
+fn is_refusal(error: &EstimatorError) -> bool {
+    matches!(
+        error,
+        EstimatorError::TooPrecise { .. } | EstimatorError::LostInMotion { .. }
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Sigmas fifteen powers of ten apart: what is not refused is a covariance, and a measurement has not
+    /// made it larger.
+    #[test]
+    fn any_sigmas_leave_a_covariance_or_are_refused(
+        noise in noise(),
+        pose in prop::array::uniform6(-1.2..1.2),
+        pose_sigma in prop::array::uniform2(sigma()),
+        feature_sigma in sigma(),
+        points in common::vectors(COUNT, 5.0),
+        control in common::control(),
+        visible in common::some_features(COUNT),
+        mut pairs in pairs(),
+        all_pairs in any::<bool>(),
+    ) {
+        let sigmas = Vector6::from_fn(|k, _| pose_sigma[k / 3].min(if k < 3 { 3.0 } else { 1e6 }));
+        let start = Belief::initial(
+            Pose::from_vector(&Vector6::from(pose)),
+            points.iter().copied().map(Point3::from).collect(),
+            &Matrix6::from_diagonal(&sigmas.map(|sigma| sigma * sigma)),
+            feature_sigma,
+        )?;
+        for (name, mut filter) in filters(noise)? {
+            let mut belief = start.clone();
+            for _ in 0..3 {
+                let moved = filter.predict(&mut belief, &control, &[Vector3::zeros(); COUNT]);
+                let State { pose, features } = &belief.state;
+                let z: Vec<_> = features.iter().map(|p| feature_measurement(pose, p)).collect();
+                for pair in &mut pairs {
+                    pair.z = features[pair.to.0] - features[pair.from.0];
+                }
+                let sums: Vec<Vector3<f64>> =
+                    features.iter().map(|p| features.iter().map(|q| p - q).sum()).collect();
+                let structure = if all_pairs {
+                    StructureMeasurements::AllPairsSummed(&sums)
+                } else {
+                    StructureMeasurements::Pairs(&pairs)
+                };
+                let before = belief.covariance.trace();
+                let seen = measured(&visible, &z);
+                match moved.and_then(|()| updated(&mut filter, &belief, &seen, structure)) {
+                    Ok(after) => belief = after,
+                    Err(error) => {
+                        prop_assert!(is_refusal(&error), "{name}: {error}");
+                        break;
+                    }
+                }
+                let after = belief.covariance.trace();
+                prop_assert!(belief.covariance.is_positive_definite(), "{name}: {noise:?}");
+                prop_assert!(after <= before * (1.0 + 1e-6), "{name}: {after} after {before}");
+            }
+        }
+    }
 }
 
 proptest! {

@@ -9,7 +9,7 @@ mod common;
 mod filters;
 mod world;
 
-use adslam_estimator::{Belief, FilterNoise};
+use adslam_estimator::{Belief, EstimatorError, FilterNoise};
 use adslam_models::State;
 use allocation_counter::measure;
 use common::NOISE;
@@ -45,9 +45,9 @@ fn assert_is_covariance(belief: &Belief, when: &str) {
     assert!(p.is_positive_definite(), "{when}: not positive definite");
 }
 
-/// Each sigma between 10⁻⁴ and 1 on its own, as likely in each power of ten.
-fn any_noise(rng: &mut ChaCha8Rng) -> FilterNoise {
-    let mut sigma = || 10_f64.powf(rng.random_range(-4.0..0.0));
+/// Each sigma between these powers of ten on its own, as likely in each of them.
+fn any_noise(rng: &mut ChaCha8Rng, exponents: std::ops::Range<f64>) -> FilterNoise {
+    let mut sigma = || 10_f64.powf(rng.random_range(exponents.clone()));
     FilterNoise {
         rotation_sigma: sigma(),
         translation_sigma: sigma(),
@@ -63,7 +63,7 @@ fn the_covariance_stays_positive_definite_whatever_the_noise_and_the_measurement
     const WORLDS: usize = 20;
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     for seed in 0..WORLDS {
-        let noise = any_noise(&mut rng);
+        let noise = any_noise(&mut rng, -3.0..0.0);
         for (name, mut filter) in filters(noise).unwrap() {
             let mut world = World::new(FEATURES, noise, seed as u64);
             let mut belief = world.first_belief().unwrap();
@@ -77,6 +77,49 @@ fn the_covariance_stays_positive_definite_whatever_the_noise_and_the_measurement
             }
         }
     }
+}
+
+/// Beyond that a filter may refuse, at any step, but never goes on with what is no covariance.
+#[test]
+fn sigmas_of_any_file_keep_a_covariance_or_are_refused() {
+    const FEATURES: usize = 5;
+    const WORLDS: usize = 60;
+    let mut rng = ChaCha8Rng::seed_from_u64(2);
+    let (mut whole, mut refused) = (0, 0);
+    for seed in 0..WORLDS {
+        let noise = any_noise(&mut rng, -9.0..1.0);
+        for (name, mut filter) in filters(noise).unwrap() {
+            let mut world = World::new(FEATURES, noise, seed as u64);
+            let mut belief = world.first_belief().unwrap();
+            let mut stopped = false;
+            for step in 0..100 {
+                let seen = rng.random_range(0..=FEATURES);
+                let kind = KINDS[rng.random_range(0..KINDS.len())];
+                if let Err(error) = world.step(seen, kind).run(&mut filter, &mut belief) {
+                    let said = matches!(
+                        error,
+                        EstimatorError::TooPrecise { .. }
+                            | EstimatorError::LostInMotion { .. }
+                            | EstimatorError::PitchNearRightAngle { .. }
+                    );
+                    assert!(said, "{name}, step {step} with {noise:?}: {error}");
+                    stopped = true;
+                    break;
+                }
+                let step_said = format!("{name}, step {step} with {noise:?}");
+                assert_is_covariance(&belief, &step_said);
+            }
+            (whole, refused) = if stopped {
+                (whole, refused + 1)
+            } else {
+                (whole + 1, refused)
+            };
+        }
+    }
+    assert!(
+        whole > 30 && refused > 10,
+        "{whole} whole, {refused} refused"
+    );
 }
 
 #[test]

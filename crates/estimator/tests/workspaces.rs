@@ -57,7 +57,7 @@ fn any_number_of_seen_features_fits_the_first_steps_memory() {
 }
 
 #[test]
-fn a_graph_of_pairs_allocates_where_it_changes_only() {
+fn pairs_that_change_every_step_allocate_nothing_after_the_first() {
     let case = CASES[1];
     let mut belief = belief(case).unwrap();
     let mut ekf = Ekf::new(NOISE).unwrap();
@@ -78,10 +78,10 @@ fn a_graph_of_pairs_allocates_where_it_changes_only() {
         })
         .count_total
     };
-    update(&pairs);
-    assert_eq!(update(&pairs), 0);
-    assert!(update(&pairs[1..]) > 0, "another graph is another factor");
-    assert_eq!(update(&pairs[1..]), 0);
+    assert!(update(&pairs) > 0, "the counter does not count");
+    for kept in [0..49, 1..49, 7..8, 3..30, 0..49] {
+        assert_eq!(update(&pairs[kept]), 0);
+    }
 }
 
 /// Features, first some and then others: as many in as many sets, all of them seen.
@@ -128,7 +128,8 @@ fn decisions_after_the_first_allocate_nothing() {
 #[test]
 fn dense_decisions_after_the_first_allocate_nothing() {
     let planned = |set: &Vec<FeatureId>| -> Vec<PlannedMeasurement> {
-        let measured = |&f| PlannedMeasurement::isotropic(f, NOISE.feature_measurement_sigma);
+        let measured =
+            |&f| PlannedMeasurement::isotropic(f, NOISE.feature_measurement_sigma).unwrap();
         set.iter().map(measured).collect()
     };
     for case in cases() {

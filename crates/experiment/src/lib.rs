@@ -8,6 +8,7 @@ mod error;
 pub mod log;
 mod mesh_report;
 pub mod metrics;
+mod near_vertices;
 pub mod output;
 pub mod provenance;
 pub mod run;
@@ -20,4 +21,4 @@ pub mod tables;
 pub mod world;
 
 pub use error::ExperimentError;
-pub use mesh_report::MeshReport;
+pub use mesh_report::{MeshReport, MeshUse};

@@ -7,11 +7,24 @@ use adslam_surface::{Inspection, Mesh, MeshFile, SurfaceError};
 use serde::Serialize;
 
 use crate::diagnostics::InputError;
+use crate::near_vertices;
 use crate::run::{features_of, parted};
+use crate::scenario::values::NonNegative;
 use crate::scenario::{LengthUnit, Named};
 
 /// An object whose largest extent is not within these bounds, cm, was hardly meant.
 const USUAL_EXTENT_CM: std::ops::RangeInclusive<f64> = 1.0..=200.0;
+
+/// What a mesh file is looked at for.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshUse {
+    /// The unit that its coordinates are taken for.
+    pub unit: LengthUnit,
+    /// Vertices within this distance of each other are joined, cm.
+    pub join_within_cm: NonNegative,
+    /// Features that an object is to have.
+    pub features: usize,
+}
 
 /// A mesh file looked at in a unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -30,6 +43,15 @@ pub struct MeshReport {
     pub triangles: usize,
     /// Triangles without a third corner, which are left out.
     pub collapsed_triangles: usize,
+    /// Vertices within this distance of each other were joined, cm.
+    pub join_within_cm: f64,
+    /// How many were joined to another that was near and not equal.
+    pub joined_vertices: usize,
+    /// How far away the farthest of these was, cm.
+    pub farthest_joined_cm: f64,
+    /// If it is not closed: the distance within which its vertices have to be joined to close it, cm; none
+    /// where that does not close it.
+    pub closes_within_cm: Option<f64>,
     /// Parts that no edge joins to each other.
     pub components: usize,
     /// Whether every edge is shared by exactly two triangles.
@@ -62,12 +84,11 @@ pub struct MeshReport {
 }
 
 impl MeshReport {
-    /// Looks at the mesh in `path`, whose coordinates are in `unit`, for an object of so many
-    /// `features`.
+    /// Looks at the mesh in `path` for a use.
     ///
     /// # Errors
     /// When the file cannot be read as a mesh at all. That a mesh will not serve is no error here.
-    pub fn read(path: &Path, unit: LengthUnit, features: usize) -> Result<Self, InputError> {
+    pub fn read(path: &Path, wanted: MeshUse) -> Result<Self, InputError> {
         let read = MeshFile::read(path).map_err(|error| {
             let text = error.to_string();
             let (message, remedy) = parted(&text);
@@ -77,23 +98,33 @@ impl MeshReport {
                 None => error,
             }
         })?;
-        Ok(Self::of(read, path, unit, features))
+        Ok(Self::of(read, path, wanted))
     }
 
     /// Looks at what was read from the file at `path`, as [`MeshReport::read`] does.
     #[must_use]
-    pub fn of(read: MeshFile, path: &Path, unit: LengthUnit, features: usize) -> Self {
+    pub fn of(read: MeshFile, path: &Path, wanted: MeshUse) -> Self {
+        let MeshUse {
+            unit,
+            join_within_cm,
+            features,
+        } = wanted;
         let MeshFile {
             format,
             is_binary,
             mesh,
             collapsed,
+            mut notes,
         } = read;
-        let mesh = mesh.scaled_and_moved(unit.in_cm(), nalgebra::Vector3::zeros());
+        let mut mesh = mesh.scaled_and_moved(unit.in_cm(), nalgebra::Vector3::zeros());
+        let joined = mesh.join_within(*join_within_cm);
+        notes.extend(near_vertices::joined_note(&joined, *join_within_cm, 1.0));
         let seen = Inspection::of(&mesh);
         let trouble = will_serve(&mesh, features).err();
         let text = trouble.map(|error| error.to_string());
         let (problem, remedy) = text.as_deref().map(parted).unzip();
+        let (closes_within_cm, advice) = near_vertices::closing_advice(&mesh, 1.0).unzip();
+        let remedy = advice.or(remedy.flatten().map(str::to_owned));
         let bounds = seen
             .bounds
             .filter(|(low, high)| low.iter().chain(high.iter()).all(|c| c.is_finite()));
@@ -104,7 +135,11 @@ impl MeshReport {
             unit: unit.as_str(),
             vertices: seen.vertices,
             triangles: seen.faces,
-            collapsed_triangles: collapsed,
+            collapsed_triangles: collapsed + joined.collapsed,
+            join_within_cm: *join_within_cm,
+            joined_vertices: joined.vertices,
+            farthest_joined_cm: joined.farthest,
+            closes_within_cm,
             components: seen.components,
             closed: seen.is_closed(),
             boundary_edges: seen.boundary_edges,
@@ -117,10 +152,11 @@ impl MeshReport {
             features,
             serves: problem.is_none(),
             problem: problem.map(str::to_owned),
-            remedy: remedy.flatten().map(str::to_owned),
-            notes: Vec::new(),
+            remedy,
+            notes,
         };
-        report.notes = report.remarks();
+        let remarks = report.remarks();
+        report.notes.extend(remarks);
         report
     }
 

@@ -8,12 +8,12 @@
 use std::fs;
 use std::path::Path;
 
-use adslam_experiment::config::{Config, MOST_RUNS_IN_ALL, Published};
+use adslam_experiment::config::{Config, MOST_RUNS_IN_ALL, Published, Selection};
 use adslam_experiment::diagnostics::InputError;
 use adslam_experiment::log::LogReader;
 use adslam_experiment::run::{HistoryRecorder, RunHistory, Setup};
 use adslam_experiment::scenario::{PlannerName, Scenario};
-use adslam_experiment::tables::{TablePlan, TablesOptions};
+use adslam_experiment::tables::TablePlan;
 use allocation_counter::measure;
 use serde_json::{Value, json};
 
@@ -175,7 +175,7 @@ fn experiments_and_runs_and_overrides_without_end() {
                           experiments with --only: at most {MOST_RUNS_IN_ALL} runs"
     );
     refused(
-        || TablePlan::new(runs.clone(), &TablesOptions::default()),
+        || TablePlan::new(runs.clone(), &Selection::default()),
         &in_all,
     );
 }

@@ -10,6 +10,7 @@ use adslam_experiment::scenario::{PlannerName, Scenario};
 use adslam_export::{Period, write_csv, write_mcap, write_ply};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use nalgebra::Point3;
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{DefaultElement, Ply, Property};
 use serde_json::Value;
@@ -71,7 +72,15 @@ fn fits(schema: &Value, message: &Value, at: &str) {
             let mut known: Vec<&String> = properties.keys().collect();
             names.sort();
             known.sort();
-            assert_eq!(names, known, "{at}");
+            // A step may lack numbers, such as the NEES of an exactly known pose.
+            if schema["title"] == "adslam.Metrics" {
+                assert!(
+                    names.iter().all(|name| known.contains(name)),
+                    "{at}: {names:?}"
+                );
+            } else {
+                assert_eq!(names, known, "{at}");
+            }
             for (name, value) in fields {
                 fits(&properties[name], value, &format!("{at}.{name}"));
             }
@@ -82,8 +91,7 @@ fn fits(schema: &Value, message: &Value, at: &str) {
                 .for_each(|item| fits(&schema["items"], item, at));
         }
         ("integer", Value::Number(n)) => assert!(n.is_u64(), "{at}: {n}"),
-        // What a step lacks, such as the NEES of an exactly known pose, is null.
-        ("number", Value::Number(_) | Value::Null)
+        ("number", Value::Number(_))
         | ("string", Value::String(_))
         | ("boolean", Value::Bool(_)) => {}
         (is, other) => panic!("{at} is {other}, not {is}"),
@@ -109,6 +117,8 @@ fn mcap_has_every_topic_at_every_step_in_the_form_of_its_schema() {
         ("/features/estimate", "foxglove.PointCloud", 1),
         ("/features/truth", "foxglove.PointCloud", 1),
         ("/metrics", "adslam.Metrics", 1),
+        ("/path/estimate", "foxglove.PosesInFrame", 1),
+        ("/path/truth", "foxglove.PosesInFrame", 1),
         ("/pose/estimate", "foxglove.PoseInFrame", 1),
         ("/pose/truth", "foxglove.PoseInFrame", 1),
         ("/surface", "foxglove.SceneUpdate", 1),
@@ -168,7 +178,8 @@ fn mcap_holds_the_run_in_metres() {
         let points = surface["points"].as_array().unwrap();
         assert_eq!(points.len(), vertices.len());
         for (point, vertex) in points.iter().zip(&vertices) {
-            same_place(xyz(point), (*vertex).into());
+            let off = Point3::from(xyz(point)) * 100.0 - vertex;
+            assert!(off.amax() < 0.000_51, "{point}, {vertex}");
         }
         let indices = surface["indices"].as_array().unwrap();
         assert_eq!(indices.len(), 3 * history.drawn_faces().len());
@@ -182,6 +193,83 @@ fn mcap_holds_the_run_in_metres() {
         let trace = message("/metrics")["trace"].as_f64().unwrap();
         assert_eq!(trace, step.metrics.trace);
     }
+}
+
+/// The way so far at every step, and the viewpoints once.
+#[test]
+fn mcap_has_paths_and_viewpoints() {
+    let mut history = history();
+    history.viewpoints_cm = vec![[1.0, 2.0, 3.0], [-4.0, 5.0, 6.0]];
+    let topics = mcap(&history, 0.1);
+    let poses = |topic: &str, i: usize| topics[topic][i].3["poses"].as_array().unwrap().clone();
+    for index in 0..STEPS {
+        for topic in ["/path/truth", "/path/estimate"] {
+            let poses = poses(topic, index);
+            assert_eq!(poses.len(), index + 1);
+            for (pose, step) in poses.iter().zip(&history.steps) {
+                let [_, _, _, x, y, z] = match topic {
+                    "/path/truth" => step.pose,
+                    _ => step.estimated_pose,
+                };
+                same_place(xyz(&pose["position"]), [x, y, z]);
+            }
+        }
+    }
+    assert_eq!(topics["/viewpoints"].len(), 1);
+    let viewpoints = poses("/viewpoints", 0);
+    assert_eq!(viewpoints.len(), 2);
+    for (pose, place) in viewpoints.iter().zip(&history.viewpoints_cm) {
+        same_place(xyz(&pose["position"]), *place);
+    }
+}
+
+/// However many steps, the file grows with their number and not its square, and the end of a path is there.
+#[test]
+fn long_paths_are_thinned() {
+    let mut history = history();
+    let step = history.steps.pop().unwrap();
+    history.steps = (0..1201)
+        .map(|i| {
+            let mut step = step.clone();
+            step.pose[3] = f64::from(i);
+            step
+        })
+        .collect();
+    let topics = mcap(&history, 0.1);
+    for (index, message) in topics["/path/truth"].iter().enumerate() {
+        let poses = message.3["poses"].as_array().unwrap();
+        assert!((1..=500).contains(&poses.len()) && poses.len() > index / 5);
+        let last = xyz(&poses.last().unwrap()["position"]);
+        assert!((100.0 * last[0] - index as f64).abs() < 1e-6);
+    }
+}
+
+/// A surface that stays is written once; `/metrics` has a schema of its own that says what each number is.
+#[test]
+fn mcap_writes_what_is_new() {
+    let mut history = history();
+    let still = history.steps[1].object.clone();
+    history.steps[2].object = still;
+    let topics = mcap(&history, 0.1);
+    let times: Vec<u64> = topics["/surface"].iter().map(|message| message.0).collect();
+    assert_eq!(times, [1, 2, 4].map(|step| step * 100_000_000));
+    for (_, name, schema, _) in &topics["/metrics"] {
+        assert_eq!(
+            (name.as_str(), &schema["title"]),
+            ("adslam.Metrics", &Value::from(&**name))
+        );
+        for (metric, schema) in schema["properties"].as_object().unwrap() {
+            let what = schema["description"].as_str().unwrap();
+            let unit = metric.rsplit('_').next().unwrap();
+            assert!(
+                !["cm", "rad"].contains(&unit) || what.ends_with(unit),
+                "{metric}: {what}"
+            );
+        }
+    }
+    let first = topics["/metrics"][0].3.as_object().unwrap();
+    assert!(!first.contains_key("pose_nees"), "{first:?}");
+    assert!(topics["/metrics"][3].3["pose_nees"].is_f64());
 }
 
 fn ply(path: &Path) -> Ply<DefaultElement> {

@@ -132,7 +132,7 @@ fn columns<'a>(histories: &[&'a RunHistory]) -> Vec<Column<'a>> {
 
 /// Error and sigma of a component.
 fn error(step: &HistoryStep, component: usize) -> (f64, f64) {
-    let error = step.estimate().minus(&step.true_pose());
+    let error = step.estimate().error(&step.true_pose());
     let sigma = step.pose_sigma.get(component);
     (error[component], sigma.copied().unwrap_or(0.0))
 }

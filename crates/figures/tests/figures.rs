@@ -10,7 +10,7 @@ use adslam_experiment::consistency::{
 };
 use adslam_experiment::run::{HistoryRecorder, Interrupt, RunHistory, Setup, simulate};
 use adslam_experiment::scenario::{EstimatorName, PlannerName, Scenario};
-use adslam_experiment::tables::{ExperimentTables, TablePlan, TablesOptions};
+use adslam_experiment::tables::{ExperimentTables, TablePlan};
 use adslam_figures::{
     Figure, boxes, comparison, consistency, coverage, environments, estimates, nees, pose_error,
 };
@@ -35,20 +35,17 @@ fn record(scenario: &str, steps: usize) -> Vec<RunHistory> {
 
 fn tables(runs: usize) -> ExperimentTables {
     let config = Config::load(&file("configs/paper.toml")).unwrap();
-    let options = TablesOptions {
-        selection: Selection {
-            runs: Some(runs),
-            only: vec!["polygon".to_owned()],
-            mesh: None,
-        },
-        record: false,
+    let selection = Selection {
+        runs: Some(runs),
+        only: vec!["polygon".to_owned()],
+        mesh: None,
     };
     let mut config = config;
     for plan in &mut config.experiments {
         plan.planners
             .retain(|planner| *planner != PlannerName::Local);
     }
-    let plan = TablePlan::new(config, &options).unwrap();
+    let plan = TablePlan::new(config, &selection).unwrap();
     plan.run(&Interrupt::new(), &|| ()).experiments.remove(0)
 }
 
@@ -205,6 +202,7 @@ fn consistency_has_a_panel_for_each_planner_and_a_line_for_each_estimator() {
         runs: 2,
         first_seed: 1,
         warnings: Vec::new(),
+        builds: Vec::new(),
         cells: vec![
             cell(EstimatorName::EulerEkf, PlannerName::Local, 4.0),
             cell(EstimatorName::RightInvariantEkf, PlannerName::Local, 7.0),

@@ -47,19 +47,40 @@ impl EulerAngles {
         Self::new(roll, pitch, yaw)
     }
 
-    /// The angles of a rotation from body to world that are nearest to `reference`: of the two triples that
-    /// every rotation has, the other one has its pitch beyond ±π/2.
+    /// The angles of a rotation from body to world that are nearest to `reference`, see
+    /// [`Self::nearest_to`].
     #[must_use]
     pub fn nearest_of_rotation(world_from_body: &Rotation3<f64>, reference: Self) -> Self {
-        let first = Self::from_rotation(world_from_body);
-        let second = Self::new(first.roll + PI, PI - first.pitch, first.yaw + PI);
-        let second = second.plus(&Vector3::zeros());
+        Self::from_rotation(world_from_body).nearest_to(reference)
+    }
+
+    /// The same orientation in the angles that are nearest to `reference`: these, or the other triple that
+    /// every orientation has, (roll + π, π − pitch, yaw + π), wrapped. These where both are as near.
+    #[must_use]
+    pub fn nearest_to(self, reference: Self) -> Self {
+        let other = Self::new(self.roll + PI, PI - self.pitch, self.yaw + PI);
+        let other = other.plus(&Vector3::zeros());
         let distance = |angles: Self| angles.minus(reference).norm_squared();
-        if distance(second) < distance(first) {
-            second
+        if distance(other) < distance(self) {
+            other
         } else {
-            first
+            self
         }
+    }
+
+    /// The error of these angles against `reference`: the differences of the triple of this orientation
+    /// that is nearest to it, wrapped to (−π, π], radians. The same orientation has none, whichever
+    /// triple gives it.
+    #[must_use]
+    pub fn error(self, reference: Self) -> Vector3<f64> {
+        self.nearest_to(reference).minus(reference)
+    }
+
+    /// The geodesic distance of two orientations on SO(3): the angle, 0 to π rad, of the one rotation that
+    /// takes one into the other.
+    #[must_use]
+    pub fn angle_to(self, other: Self) -> f64 {
+        self.quaternion().angle_to(&other.quaternion())
     }
 
     /// R(Θ), from body to world.
@@ -107,7 +128,8 @@ impl EulerAngles {
         Self::from_vector(&(self.to_vector() + delta).map(wrap_angle))
     }
 
-    /// Θ − `other`, every difference wrapped to (−π, π].
+    /// Θ − `other`, every difference wrapped to (−π, π]: undoes [`Self::plus`]. It compares numbers, not
+    /// orientations; for those see [`Self::error`].
     #[must_use]
     pub fn minus(self, other: Self) -> Vector3<f64> {
         (self.to_vector() - other.to_vector()).map(wrap_angle)
@@ -177,6 +199,45 @@ mod tests {
             let near = angles.plus(&Vector3::from(offset));
             let back = EulerAngles::nearest_of_rotation(&angles.rotation(), near);
             prop_assert!(back.minus(angles).norm() < 1e-12);
+        }
+    }
+
+    proptest! {
+        /// The trace of the relative rotation knows nothing of triples and quaternions.
+        #[test]
+        fn the_geodesic_angle_is_that_of_the_relative_rotation(
+            a in prop::array::uniform3(-3.1..3.1), b in prop::array::uniform3(-3.1..3.1)
+        ) {
+            let [a, b] = [a, b].map(|angles| EulerAngles::from_vector(&Vector3::from(angles)));
+            let relative = a.rotation().inverse() * b.rotation();
+            let cosine = (relative.matrix().trace() - 1.0) / 2.0;
+            prop_assert!((a.angle_to(b).cos() - cosine).abs() < 1e-12);
+            prop_assert!((a.angle_to(b) - b.angle_to(a)).abs() < 1e-12);
+            prop_assert!(a.angle_to(a) < 1e-12);
+        }
+
+        #[test]
+        fn errors_do_not_depend_on_the_triple(
+            angles in prop::array::uniform3(-3.1..3.1), other in prop::array::uniform3(-3.1..3.1)
+        ) {
+            let [a, b] = [angles, other].map(|angles| EulerAngles::from_vector(&Vector3::from(angles)));
+            let twin = EulerAngles::new(a.roll + PI, PI - a.pitch, a.yaw + PI);
+            prop_assert!((twin.rotation().matrix() - a.rotation().matrix()).amax() < 1e-12);
+            prop_assert!(twin.error(a).norm() < 1e-12, "of one orientation");
+            prop_assert!((a.error(b).norm() - twin.error(b).norm()).abs() < 1e-12);
+            prop_assert!((a.error(b).norm() - b.error(twin).norm()).abs() < 1e-12);
+            prop_assert!(a.error(b).norm() <= a.minus(b).norm());
+        }
+
+        #[test]
+        fn small_errors_are_the_differences_to_the_last_bit(
+            angles in prop::array::uniform3(-3.1..3.1), delta in prop::array::uniform3(-0.5..0.5)
+        ) {
+            let a = EulerAngles::from_vector(&Vector3::from(angles));
+            let b = a.plus(&Vector3::from(delta));
+            // The other triple of b has its pitch at least this far from a's.
+            prop_assume!(a.pitch.cos().abs() > 0.5);
+            prop_assert_eq!(b.error(a), b.minus(a));
         }
     }
 

@@ -64,10 +64,22 @@ impl Pose {
         Self::new(self.orientation.plus(&angles), self.position + position)
     }
 
-    /// χ ⊖ `other`: the error vector (eΘ, eₓ) of eq. (11), with the angles wrapped.
+    /// χ ⊖ `other`, angles wrapped: undoes [`Self::plus`]. For how far poses are from each other see
+    /// [`Self::error`].
     #[must_use]
     pub fn minus(&self, other: &Self) -> Vector6<f64> {
-        let angles = self.orientation.minus(other.orientation);
+        self.joined(self.orientation.minus(other.orientation), other)
+    }
+
+    /// The error vector (eΘ, eₓ) of eq. (11) against `reference`, radians and cm. Of the two triples of angles
+    /// that every orientation has, eΘ takes the nearest, see [`EulerAngles::error`].
+    #[must_use]
+    pub fn error(&self, reference: &Self) -> Vector6<f64> {
+        self.joined(self.orientation.error(reference.orientation), reference)
+    }
+
+    /// These angles, then the position less the other's.
+    fn joined(&self, angles: Vector3<f64>, other: &Self) -> Vector6<f64> {
         let position = self.position - other.position;
         Vector6::new(
             angles.x, angles.y, angles.z, position.x, position.y, position.z,
@@ -79,6 +91,18 @@ impl Pose {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn a_pose_has_no_error_against_itself_in_other_angles() {
+        let pose = Pose::from_vector(&Vector6::new(0.1, 2.0, -0.3, 1.0, 2.0, 3.0));
+        let turned = EulerAngles::from_rotation(&pose.orientation.rotation());
+        assert!(turned.pitch < 1.3, "the other triple: {turned:?}");
+        let same = Pose::new(turned, pose.position);
+        assert!(same.minus(&pose).norm() > 3.0);
+        assert!(same.error(&pose).norm() < 1e-12);
+        let moved = Pose::new(turned, pose.position + Vector3::new(0.3, 0.0, 0.4));
+        assert!((moved.error(&pose).norm() - 0.5).abs() < 1e-12);
+    }
 
     proptest! {
         #[test]

@@ -5,6 +5,12 @@ use std::collections::HashMap;
 use adslam_models::{Control, EulerAngles};
 use nalgebra::Vector3;
 
+/// The control that changes nothing.
+const STAYING: Control = Control {
+    rotation: Vector3::new(0.0, 0.0, 0.0),
+    translation: Vector3::new(0.0, 0.0, 0.0),
+};
+
 /// The controls that the robot may choose from, and the attitudes that it must keep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ActionSet {
@@ -14,6 +20,8 @@ pub struct ActionSet {
     /// For each action which of the distinct translations it has.
     positions: Vec<usize>,
     position_count: usize,
+    /// The action that changes nothing, where there is one.
+    staying: Option<usize>,
 }
 
 impl ActionSet {
@@ -47,13 +55,21 @@ impl ActionSet {
             }
         }
         let (positions, position_count) = distinct_translations(&controls);
+        let staying = controls.iter().position(|control| *control == STAYING);
         Self {
             controls,
             max_roll,
             max_pitch,
             positions,
             position_count,
+            staying,
         }
+    }
+
+    /// Staying where one is, which a robot always can, and its place in the set if it is there.
+    #[must_use]
+    pub fn staying(&self) -> (Option<usize>, Control) {
+        (self.staying, STAYING)
     }
 
     /// How many distinct positions the actions lead to.
@@ -105,6 +121,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn staying_is_found_where_the_set_has_it() {
+        let (still, turned) = ([0.0], [0.0, 0.5]);
+        let with = ActionSet::grid([&still, &still, &turned], [&[-0.1, 0.0], &still], 1.0, 1.0);
+        assert_eq!(with.staying(), (Some(1), with.controls()[1]));
+        let without = ActionSet::grid([&still, &still, &still], [&[-0.1, 0.1], &still], 1.0, 1.0);
+        assert_eq!(without.staying(), (None, STAYING));
+    }
+
+    #[test]
     fn the_papers_set_has_675_actions() {
         let third = [-30f64, 0.0, 30.0].map(f64::to_radians);
         let yaw = [-45f64, -22.5, 0.0, 22.5, 45.0].map(f64::to_radians);
@@ -118,5 +143,33 @@ mod tests {
         assert!((v - expected).norm() < 1e-15);
         assert!(actions.admits(EulerAngles::new(limit, -limit, 3.0)));
         assert!(!actions.admits(EulerAngles::new(limit + 1e-9, 0.0, 0.0)));
+        assert!(!actions.admits(EulerAngles::new(0.0, -limit - 1e-9, 0.0)));
+    }
+
+    #[test]
+    fn actions_that_lead_to_the_same_place_share_its_number() {
+        let turn = [-0.5, 0.0, 0.5];
+        // Without dz a roll changes nothing, and without dx nor dz nothing does.
+        let actions = ActionSet::grid([&turn, &[0.0], &turn], [&[0.0, 0.4], &[0.0]], 1.0, 1.0);
+        let numbers: Vec<usize> = (0..18).map(|action| actions.position_of(action)).collect();
+        assert_eq!(numbers[..6], [0, 1, 0, 2, 0, 3]);
+        assert_eq!(numbers[..6], numbers[6..12]);
+        assert_eq!(numbers[..6], numbers[12..]);
+        assert_eq!(actions.position_count(), 4);
+    }
+
+    #[test]
+    fn zeros_of_either_sign_are_the_same_place() {
+        let to = |x, y, z| Control {
+            rotation: Vector3::zeros(),
+            translation: Vector3::new(x, y, z),
+        };
+        let controls = [
+            to(0.0, -0.0, 1.0),
+            to(-0.0, 0.0, 1.0),
+            to(0.0, 0.0, -1.0),
+            to(0.0, 0.0, 1.0),
+        ];
+        assert_eq!(distinct_translations(&controls), (vec![0, 0, 1, 0], 2));
     }
 }

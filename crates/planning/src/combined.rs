@@ -25,7 +25,13 @@ impl Nearest {
                 clippy::cast_sign_loss,
                 reason = "a share of a count; a cast saturates"
             )]
-            Self::Fraction(fraction) => (fraction * safe as f64).floor() as usize,
+            Self::Fraction(fraction) => {
+                let share = fraction * safe as f64;
+                let whole = share.round();
+                // A decimal fraction and the product are rounded once each: 0.29 of 100 is 29.
+                let is_whole = (share - whole).abs() <= whole * f64::EPSILON;
+                (if is_whole { whole } else { share.floor() }) as usize
+            }
         };
         wanted.clamp(1, safe.max(1))
     }
@@ -60,6 +66,7 @@ impl Planner for CombinedPlanner {
         })?;
         Ok(Decision {
             goal: Some(goal),
+            abandoned: self.goals.abandoned(),
             ..decision
         })
     }
@@ -78,10 +85,29 @@ mod tests {
     use super::*;
 
     #[test]
+    fn decimal_fractions_mean_what_they_say() {
+        for (digits, parts) in [(1, 10), (2, 100), (3, 1000)] {
+            for k in 1..=parts {
+                let fraction: f64 = format!("{k}e-{digits}").parse().unwrap();
+                for safe in 1..700 {
+                    let expected = (k * safe / parts).max(1);
+                    let nearest = Nearest::Fraction(fraction).of(safe);
+                    assert_eq!(nearest, expected, "{fraction} of {safe}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn shares_are_rounded_down_to_at_least_one() {
         assert_eq!(Nearest::Fraction(0.1).of(258), 25);
         assert_eq!(Nearest::Fraction(0.1).of(5), 1);
         assert_eq!(Nearest::Fraction(1.0).of(258), 258);
+        assert_eq!(
+            Nearest::Fraction(0.29).of(100),
+            29,
+            "29 hundredths, not 28.999…"
+        );
         assert_eq!(Nearest::Count(1).of(258), 1);
         assert_eq!(Nearest::Count(675).of(258), 258);
     }

@@ -27,6 +27,20 @@ pub enum PlanningError {
         /// How many candidates there are.
         candidates: usize,
     },
+    /// A grid of viewpoints that are all too near to the object.
+    #[error(
+        "none of the {candidates} viewpoint candidates can be reached: a robot that keeps {clearance} cm from \
+         the object comes within {reached_within} cm of none; widen the grid or let viewpoints count as reached \
+         from farther away"
+    )]
+    NoReachableViewpoints {
+        /// How many candidates the grid has.
+        candidates: usize,
+        /// What the robot keeps from the object, cm.
+        clearance: f64,
+        /// From where on a viewpoint counts as reached, cm.
+        reached_within: f64,
+    },
     /// A grid of viewpoints without a usable point.
     #[error(
         "none of the {candidates} viewpoint candidates lies outside the object; widen the grid or \

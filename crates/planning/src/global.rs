@@ -33,7 +33,8 @@ impl Planner for GlobalPlanner {
         let chosen = chosen.ok_or(PlanningError::NoActions)?;
         Ok(Decision {
             goal: Some(goal),
-            ..self.safe.decision(chosen.control)
+            abandoned: self.goals.abandoned(),
+            ..self.safe.decision(situation, chosen)
         })
     }
 

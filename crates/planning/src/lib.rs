@@ -9,6 +9,9 @@
 //! | [`GlobalPlanner`] | nearest to the current viewpoint | III-C, Algorithm 2, eqs. (8), (9) |
 //! | [`CombinedPlanner`] | smallest trace among those nearest to the viewpoint | III-D |
 //!
+//! No planner that chooses goes through the estimated surface: where nothing is safe, [`SafeActions`] has the robot stay,
+//! or go where the way is free.
+//!
 //! For planners of one's own: [`ObjectSurfaces`], [`SafeActions`] and [`VisibleSets`] say where the object
 //! will be, what is safe and what would be seen, and [`ActionScorer`] which candidate leaves the
 //! smallest trace. All keep their room from decision to decision.
@@ -19,6 +22,7 @@
 mod action;
 mod combined;
 mod error;
+mod fallback;
 mod global;
 mod goal;
 mod local;
@@ -28,6 +32,7 @@ mod predetermined;
 mod safety;
 mod scoring;
 mod surfaces;
+mod ties;
 mod trace_choice;
 mod viewpoint;
 mod visible_sets;
@@ -36,7 +41,7 @@ pub use action::ActionSet;
 pub use combined::{CombinedPlanner, Nearest};
 pub use error::PlanningError;
 pub use global::GlobalPlanner;
-pub use goal::Goals;
+pub use goal::{Approach, Goals};
 pub use local::LocalPlanner;
 pub use model::PlanningModel;
 pub use planner::{Decision, Planner, Score, Situation};
@@ -45,7 +50,7 @@ pub use safety::{Candidate, SafeActions};
 pub use scoring::{ActionScorer, PlanningNoise, TRACE_TOLERANCE};
 pub use surfaces::ObjectSurfaces;
 pub use viewpoint::{
-    ViewpointPath, ViewpointSampling, features_never_seen, features_seen_from,
+    ViewpointPath, ViewpointSampling, can_be_reached, features_never_seen, features_seen_from,
     features_seen_in_pose, sample_viewpoints,
 };
 pub use visible_sets::VisibleSets;

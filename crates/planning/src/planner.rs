@@ -42,8 +42,14 @@ pub struct Decision {
     pub scored: usize,
     /// trace(Pₙ₊₁) of the chosen action where it was computed, rad² + cm².
     pub predicted_trace: Option<f64>,
-    /// Whether no action was safe and the one that clears the surface by most was taken.
+    /// Whether no action was safe within the limits of roll and pitch, see [`SafeActions`](crate::SafeActions).
     pub compromised: bool,
+    /// Whether the control is predicted to lead beyond the limits of roll and pitch, as no action keeps
+    /// them.
+    pub limits_waived: bool,
+    /// The viewpoint that was given up just before, with its place in the path, as the robot had come no nearer
+    /// to it.
+    pub abandoned: Option<(usize, Point3<f64>)>,
 }
 
 impl Decision {
@@ -58,6 +64,8 @@ impl Decision {
             scored: 0,
             predicted_trace: None,
             compromised: false,
+            limits_waived: false,
+            abandoned: None,
         }
     }
 }
@@ -65,8 +73,8 @@ impl Decision {
 /// An action for which the objective was computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Score {
-    /// Its place in the action set.
-    pub index: usize,
+    /// Its place in the action set; none for staying, where the set has no such action.
+    pub index: Option<usize>,
     /// The pose that it would lead to, without noise.
     pub pose: Pose,
     /// trace(Pₙ₊₁) after it, rad² + cm².

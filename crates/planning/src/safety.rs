@@ -4,13 +4,14 @@ use adslam_models::{Control, Pose, predicted_pose};
 use adslam_surface::{Clearance, Surface};
 use nalgebra::Point3;
 
-use crate::{Decision, PlanningError, Situation};
+use crate::fallback::Fallback;
+use crate::{Decision, PlanningError, Situation, ties};
 
 /// An action and where it would lead.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
-    /// Its place in the action set, which breaks ties.
-    pub index: usize,
+    /// Its place in the action set, which breaks ties; none for staying, where the set has no such action.
+    pub index: Option<usize>,
     /// The control.
     pub control: Control,
     /// The predicted pose after it.
@@ -19,7 +20,14 @@ pub struct Candidate {
 
 /// The actions of a situation that are safe: they end farther than the clearance from the surface of
 /// the estimated features, both as it is and as it will be, on its outside, and the straight
-/// way there crosses neither. Where none is, the one that clears the surface by most.
+/// way there crosses neither.
+///
+/// Where none is, there is one candidate, a compromise: of the actions whose way crosses neither surface
+/// the one that ends farthest from them. Staying counts among these always, also where the set has no such action and
+/// whatever the attitude, which it makes no worse; so a robot outside the surface never goes through
+/// it. Of a surface that the robot is inside of or on, before or after the motion, the way out may be crossed: then those
+/// actions come first that end outside and, once outside, stay there; where there are none, the
+/// one that ends least deep.
 ///
 /// Keeps its room from decision to decision.
 #[derive(Clone, Debug, Default)]
@@ -29,6 +37,7 @@ pub struct SafeActions {
     admissible: usize,
     considered: Vec<Candidate>,
     clearance: Clearance,
+    fallback: Fallback,
 }
 
 impl SafeActions {
@@ -48,11 +57,14 @@ impl SafeActions {
         let model = situation.model;
         let pose = situation.belief.state.pose;
         let predicted = |(index, control): (usize, &Control)| Candidate {
-            index,
+            index: Some(index),
             control: *control,
             pose: predicted_pose(&pose, control),
         };
         let all = model.actions.controls().iter().enumerate().map(predicted);
+        if model.actions.controls().is_empty() {
+            return Err(PlanningError::NoActions);
+        }
         let admitted = |candidate: &Candidate| model.actions.admits(candidate.pose.orientation);
         self.considered.clear();
         self.considered.extend(all.clone().filter(admitted));
@@ -83,36 +95,27 @@ impl SafeActions {
             0
         };
         if self.candidates.is_empty() {
+            let (index, control) = model.actions.staying();
+            let staying = Candidate {
+                index,
+                control,
+                pose,
+            };
+            let start = &pose.position;
             let best = self
-                .clears_by_most(now, after)
-                .ok_or(PlanningError::NoActions)?;
-            self.candidates.push(best);
+                .fallback
+                .choose(start, &self.considered, &staying, [now, after]);
+            self.candidates.push(best.clone());
         }
         Ok(())
     }
 
-    /// The first of the actions whose end is farthest from the surfaces.
-    fn clears_by_most(&self, now: &Surface, after: &Surface) -> Option<Candidate> {
-        let distance = |candidate: &Candidate| {
-            let end = &candidate.pose.position;
-            after.signed_distance(end).min(now.signed_distance(end))
-        };
-        self.considered
-            .iter()
-            .map(|candidate| (distance(candidate), candidate))
-            .reduce(|best, other| if other.0 > best.0 { other } else { best })
-            .map(|(_, candidate)| candidate.clone())
-    }
-
     /// Keeps the `count` candidates, at least one, that end nearest to `goal` (world, cm), those first
-    /// that are nearest, eq. (9); of equals the first in the action set.
+    /// that are nearest, eq. (9); of equals, but for rounding, the first in the action set.
     pub fn keep_nearest(&mut self, goal: &Point3<f64>, count: usize) {
-        let squared_distance = |c: &Candidate| (c.pose.position - goal).norm_squared();
-        self.candidates.sort_unstable_by(|a, b| {
-            squared_distance(a)
-                .total_cmp(&squared_distance(b))
-                .then(a.index.cmp(&b.index))
-        });
+        let distance = |c: &Candidate| (c.pose.position - goal).norm();
+        let order = |c: &Candidate| ties::order(c.index);
+        ties::sort(&mut self.candidates, goal.coords.norm(), distance, order);
         self.candidates.truncate(count.max(1));
     }
 
@@ -135,14 +138,16 @@ impl SafeActions {
         self.safe == 0
     }
 
-    /// The record of choosing one of these.
+    /// The record of choosing one of these in the situation that they were found for.
     #[must_use]
-    pub fn decision(&self, chosen: Control) -> Decision {
+    pub fn decision(&self, situation: &Situation<'_>, chosen: &Candidate) -> Decision {
+        let actions = &situation.model.actions;
         Decision {
             admissible: self.admissible,
             safe: self.safe,
             compromised: self.compromised(),
-            ..Decision::without_choice(chosen)
+            limits_waived: !actions.admits(chosen.pose.orientation),
+            ..Decision::without_choice(chosen.control)
         }
     }
 }

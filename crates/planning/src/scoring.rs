@@ -3,7 +3,7 @@
 use adslam_estimator::{FilterNoise, PosteriorTrace, SetId};
 use adslam_models::FeatureId;
 
-use crate::{Candidate, PlanningError, Score, Situation, VisibleSets};
+use crate::{Candidate, PlanningError, Score, Situation, VisibleSets, ties};
 
 /// What a planner assumes otherwise than the filter does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,7 +41,7 @@ pub struct ActionScorer {
 
 /// Traces nearer to each other than this, relatively, count as equal: mirror images of an action are
 /// exactly as good, and rounding must not decide between them.
-pub const TRACE_TOLERANCE: f64 = 1e-12;
+pub const TRACE_TOLERANCE: f64 = ties::TOLERANCE;
 
 /// A candidate is passed over only if even with more to see it would be worse by more than any
 /// rounding.
@@ -154,6 +154,6 @@ fn first_of_the_best(scores: &[Score]) -> Option<Score> {
     scores
         .iter()
         .filter(|score| score.trace <= limit)
-        .min_by_key(|score| score.index)
+        .min_by_key(|score| ties::order(score.index))
         .copied()
 }

@@ -2,8 +2,8 @@
 //! goal.
 
 use crate::{
-    ActionScorer, Decision, ObjectSurfaces, PlanningError, PlanningNoise, SafeActions, Score,
-    Situation, VisibleSets,
+    ActionScorer, Candidate, Decision, ObjectSurfaces, PlanningError, PlanningNoise, SafeActions,
+    Score, Situation, VisibleSets,
 };
 
 /// Takes the candidate with the smallest trace; keeps all room between decisions.
@@ -43,11 +43,13 @@ impl TraceChoice {
         let best = scorer
             .best(situation, safe.candidates(), sets)?
             .ok_or(PlanningError::NoActions)?;
-        let control = model.actions.controls()[best.index];
+        let is_best = |candidate: &&Candidate| candidate.index == best.index;
+        let chosen = safe.candidates().iter().find(is_best);
+        let chosen = chosen.ok_or(PlanningError::NoActions)?;
         Ok(Decision {
             scored: scorer.scores().len(),
             predicted_trace: Some(best.trace),
-            ..safe.decision(control)
+            ..safe.decision(situation, chosen)
         })
     }
 

@@ -40,7 +40,7 @@ impl VisibleSets {
         self.bits.clear();
         self.positions.clear();
         self.positions
-            .resize(2 * words * actions.position_count(), 0);
+            .resize(2 * words * (actions.position_count() + 1), 0);
         for candidate in candidates {
             let start = self.bits.len();
             self.bits.resize(start + words, 0);
@@ -51,7 +51,11 @@ impl VisibleSets {
                 let ahead = forward.dot(&(point - eye)) > 0.0;
                 insert_if(ahead && sensor.in_range(&eye, point), set, id);
             }
-            let position = 2 * words * actions.position_of(candidate.index);
+            // Staying has the last place where the set has no such action.
+            let place = candidate
+                .index
+                .map_or(actions.position_count(), |index| actions.position_of(index));
+            let position = 2 * words * place;
             let (looked, in_sight) = self.positions[position..][..2 * words].split_at_mut(words);
             let unknown = set.iter().zip(&*looked).map(|(set, looked)| set & !looked);
             for &id in self.fan.seen(surface, &eye, members(unknown)) {
@@ -172,7 +176,7 @@ mod tests {
                 .iter()
                 .enumerate()
                 .map(|(index, control)| Candidate {
-                    index,
+                    index: Some(index),
                     control: *control,
                     pose: predicted_pose(&start, control),
                 })

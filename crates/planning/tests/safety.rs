@@ -1,11 +1,92 @@
-//! Safe actions against their definition.
+//! Safe actions, and what is done where there is none, against their definition.
 
 mod common;
 
-use adslam_planning::{ObjectSurfaces, SafeActions, Situation};
+use std::sync::Arc;
+
+use adslam_estimator::Belief;
+use adslam_models::{Pose, predicted_pose};
+use adslam_planning::{
+    ActionSet, Candidate, CombinedPlanner, Decision, GlobalPlanner, Goals, LocalPlanner, Nearest,
+    ObjectSurfaces, Planner, PlanningModel, PlanningNoise, SafeActions, Situation,
+};
+use adslam_surface::{Surface, Topology};
 use common::CLEARANCE;
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
+
+/// The surfaces of a situation, before and after the motion.
+struct World<'a> {
+    situation: Situation<'a>,
+    surfaces: [Surface; 2],
+}
+
+impl<'a> World<'a> {
+    fn new(
+        model: &'a PlanningModel,
+        belief: &'a Belief,
+        feature_motion: &'a [Vector3<f64>],
+    ) -> Self {
+        let situation = Situation {
+            belief,
+            feature_motion,
+            model,
+            time_is_up: None,
+        };
+        let mut surfaces = ObjectSurfaces::default();
+        let placed = surfaces.place(&situation).unwrap();
+        let surfaces = placed.map(Clone::clone);
+        Self {
+            situation,
+            surfaces,
+        }
+    }
+
+    fn start(&self) -> Point3<f64> {
+        self.situation.belief.state.pose.position
+    }
+
+    /// Signed distance from the nearer surface.
+    fn distance(&self, p: &Point3<f64>) -> f64 {
+        let [now, after] = &self.surfaces;
+        now.signed_distance(p).min(after.signed_distance(p))
+    }
+
+    /// Whether the way crosses a surface that the robot is outside of.
+    fn goes_in(&self, end: &Point3<f64>) -> bool {
+        let start = self.start();
+        let goes_in = |surface: &Surface| {
+            surface.signed_distance(&start) > 0.0 && surface.crosses(&start, end)
+        };
+        start != *end && self.surfaces.iter().any(goes_in)
+    }
+
+    fn found(&self) -> SafeActions {
+        let [now, after] = &self.surfaces;
+        let mut safe = SafeActions::default();
+        safe.find(&self.situation, [now, after]).unwrap();
+        safe
+    }
+}
+
+/// All planners that choose, on their way to `goal`.
+fn planners(goal: Point3<f64>) -> [Box<dyn Planner>; 3] {
+    let goals = || Goals::new(vec![goal], 0.1).unwrap();
+    let noise = PlanningNoise::default();
+    [
+        Box::new(LocalPlanner::new(noise)),
+        Box::new(GlobalPlanner::new(goals())),
+        Box::new(CombinedPlanner::new(goals(), Nearest::Fraction(0.3), noise)),
+    ]
+}
+
+/// With the action that changes nothing or without.
+fn some_actions(stays: bool, step: f64) -> ActionSet {
+    let turn = [-0.5, 0.1, 0.5];
+    let (with, without) = ([-step, 0.0, step], [-step, 0.5 * step, step]);
+    let list = if stays { &with } else { &without };
+    ActionSet::grid([&turn, &turn, &turn], [list, &without], 0.6, 0.6)
+}
 
 proptest! {
     #[test]
@@ -16,21 +97,11 @@ proptest! {
     ) {
         let Some((model, belief)) = common::world(&features, pose) else { return Ok(()) };
         let feature_motion = vec![Vector3::from(motion); features.len()];
-        let situation = Situation {
-            belief: &belief,
-            feature_motion: &feature_motion,
-            model: &model,
-            time_is_up: None,
-        };
-        let mut surfaces = ObjectSurfaces::default();
-        let [now, after] = surfaces.place(&situation)?;
-        let mut safe = SafeActions::default();
-        safe.find(&situation, [now, after])?;
-        let distance = |p| now.signed_distance(p).min(after.signed_distance(p));
-        let chosen: Vec<usize> = safe.candidates().iter().map(|c| c.index).collect();
+        let world = World::new(&model, &belief, &feature_motion);
+        let safe = world.found();
 
-        let predicted = |u| adslam_models::predicted_pose(&pose, u);
-        let all: Vec<_> = model.actions.controls().iter().map(predicted).collect();
+        let ends = |u| predicted_pose(&pose, u);
+        let all: Vec<Pose> = model.actions.controls().iter().map(ends).collect();
         let admissible = |i: &usize| model.actions.admits(all[*i].orientation);
         let considered: Vec<usize> = if (0..all.len()).any(|i| admissible(&i)) {
             (0..all.len()).filter(admissible).collect()
@@ -39,19 +110,210 @@ proptest! {
         };
         let is_safe = |i: &usize| {
             let end = &all[*i].position;
-            distance(end) > CLEARANCE
-                && !now.crosses(&pose.position, end)
-                && !after.crosses(&pose.position, end)
+            let crosses = |surface: &Surface| surface.crosses(&pose.position, end);
+            world.distance(end) > CLEARANCE && !world.surfaces.iter().any(crosses)
         };
         let expected: Vec<usize> = considered.iter().copied().filter(is_safe).collect();
-        if expected.is_empty() {
-            prop_assert!(safe.compromised());
-            prop_assert_eq!(chosen.len(), 1);
-            let best = considered.iter().map(|&i| distance(&all[i].position));
-            let best = best.fold(f64::NEG_INFINITY, f64::max);
-            prop_assert_eq!(distance(&all[chosen[0]].position), best);
-        } else {
+        if !expected.is_empty() {
+            let chosen: Vec<usize> = safe.candidates().iter().map(|c| c.index.unwrap()).collect();
             prop_assert_eq!(chosen, expected);
+            return Ok(());
+        }
+        prop_assert!(safe.compromised());
+        let [chosen] = safe.candidates() else { panic!("one compromise") };
+        prop_assert!(!world.goes_in(&chosen.pose.position));
+
+        // The hull of the features is convex, so a way from within that ends outside leaves it once.
+        let mut open: Vec<Point3<f64>> = considered
+            .iter()
+            .map(|&i| all[i].position)
+            .filter(|end| !world.goes_in(end))
+            .collect();
+        open.push(pose.position);
+        let most = open.iter().map(|end| world.distance(end));
+        let most = most.fold(f64::NEG_INFINITY, f64::max);
+        prop_assert!((world.distance(&chosen.pose.position) - most).abs() < 1e-10);
+    }
+
+    #[test]
+    fn no_planner_ever_goes_through_the_object(
+        features in common::features(),
+        pose in common::pose(),
+        motion in prop::collection::vec(prop::array::uniform3(-0.3..0.3), 10),
+        goal in prop::array::uniform3(-3.0..5.0),
+        clearance in 0.0..3.0,
+        (stays, step) in (any::<bool>(), 0.1..4.0),
+    ) {
+        let Some((mut model, belief)) = common::world(&features, pose) else { return Ok(()) };
+        model.actions = some_actions(stays, step);
+        model.clearance = clearance;
+        let feature_motion: Vec<_> = motion[..features.len()].iter().copied().map(Vector3::from).collect();
+        let world = World::new(&model, &belief, &feature_motion);
+        for mut planner in planners(Point3::from(goal)) {
+            let decision = planner.decide(&world.situation)?;
+            let end = predicted_pose(&pose, &decision.control);
+            prop_assert!(!world.goes_in(&end.position), "{decision:?}");
+            let gained = world.distance(&end.position) - world.distance(&pose.position);
+            prop_assert!(!decision.compromised || decision.limits_waived || gained > -1e-9, "{decision:?}");
+            prop_assert_eq!(decision.limits_waived, !model.actions.admits(end.orientation));
+            prop_assert_eq!(decision.compromised, decision.safe == 0);
+        }
+    }
+}
+
+/// Plates across the x axis, each over a range of x (cm), as one surface.
+fn plates(ranges: &[[f64; 2]]) -> (Arc<Topology>, Vec<Point3<f64>>) {
+    let mut points = Vec::new();
+    let mut faces = Vec::new();
+    for range in ranges {
+        let first = points.len();
+        for x in range {
+            for (y, z) in [(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)] {
+                points.push(Point3::new(*x, y, z));
+            }
+        }
+        let mut quad = |corners: [usize; 4]| {
+            let [a, b, c, d] = corners.map(|i| first + i);
+            faces.extend([[a, b, c], [a, c, d]]);
+        };
+        quad([3, 2, 1, 0]);
+        quad([4, 5, 6, 7]);
+        for i in 0..4 {
+            let j = (i + 1) % 4;
+            quad([i, j, 4 + j, 4 + i]);
+        }
+    }
+    (
+        Arc::new(Topology::from_faces(&points, &faces).unwrap()),
+        points,
+    )
+}
+
+/// What the planners decide at `x`, where they can step by `dx` along x and the plates move by `motion`, and where it
+/// leads; all agree.
+fn decided(
+    ranges: &[[f64; 2]],
+    x: f64,
+    clearance: f64,
+    dx: &[f64],
+    motion: f64,
+) -> (f64, Decision) {
+    let (topology, points) = plates(ranges);
+    let pose = Pose::new(Default::default(), Point3::new(x, 0.0, 0.0));
+    let (mut model, belief) = common::world(&points, pose).unwrap();
+    model.topology = topology;
+    model.clearance = clearance;
+    model.actions = ActionSet::grid([&[0.0], &[0.0], &[0.0]], [dx, &[0.0]], 0.6, 0.6);
+    let feature_motion = vec![Vector3::new(motion, 0.0, 0.0); points.len()];
+    let world = World::new(&model, &belief, &feature_motion);
+    let decisions = planners(Point3::new(3.0, 0.0, 0.0)).map(|mut planner| {
+        let decision = planner.decide(&world.situation).unwrap();
+        let end = predicted_pose(&pose, &decision.control).position.x;
+        (end, decision)
+    });
+    assert!(
+        decisions.iter().all(|(end, _)| *end == decisions[0].0),
+        "{decisions:?}"
+    );
+    let [first, ..] = decisions;
+    first
+}
+
+/// A plate before the robot and a clearance that nothing keeps.
+#[test]
+fn the_way_through_a_plate_is_never_taken() {
+    let plate = [[1.0, 1.2]];
+    let end = |dx: &[f64]| {
+        let (end, decision) = decided(&plate, 0.5, 3.0, dx, 0.0);
+        assert!(decision.compromised && decision.safe == 0 && !decision.limits_waived);
+        end
+    };
+    assert_eq!(
+        end(&[0.0, 2.5]),
+        0.5,
+        "stays, although x = 3 clears the plate by more"
+    );
+    assert_eq!(
+        end(&[2.5]),
+        0.5,
+        "stays, although no action of the set does"
+    );
+    assert_eq!(end(&[0.25, 2.5]), 0.5, "nor goes nearer");
+    assert_eq!(end(&[-0.25, -1.5, 2.5]), -1.0, "goes back as far as it can");
+    // The plate comes nearer and will stand between the robot and where it would go.
+    assert_eq!(decided(&plate, 0.5, 3.0, &[0.45], -0.4).0, 0.5);
+}
+
+#[test]
+fn a_robot_inside_goes_out_and_not_in_again() {
+    // The farther end lies beyond the other plate.
+    let (end, decision) = decided(&[[0.0, 1.0], [2.0, 3.0]], 0.5, 0.3, &[1.0, 3.25], 0.0);
+    assert_eq!(end, 1.5);
+    assert!(decision.compromised);
+    // Too deep to get out at once: towards the nearer side.
+    assert_eq!(decided(&[[0.0, 4.0]], 1.0, 0.3, &[-0.5, 0.5], 0.0).0, 0.5);
+    assert_eq!(
+        decided(&[[0.0, 4.0]], 1.0, 0.3, &[1.0], 0.0).0,
+        1.0,
+        "stays rather than goes deeper"
+    );
+    // The plate will be where the robot is: it goes ahead of it, not through it.
+    assert_eq!(
+        decided(&[[1.0, 1.2]], 0.9, 0.05, &[-0.3, 0.8], -0.2).0,
+        0.9 - 0.3
+    );
+}
+
+#[test]
+fn limits_that_no_action_keeps_are_waived_and_said_to_be() {
+    let features = [
+        [1.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [1.5, 1.0, 0.0],
+        [1.5, 0.0, 1.0],
+    ]
+    .map(Point3::from);
+    let pose = Pose::new(Default::default(), Point3::new(-2.0, 0.0, 0.0));
+    let (mut model, belief) = common::world(&features, pose).unwrap();
+    model.actions = ActionSet::grid([&[0.7], &[0.0], &[0.0]], [&[0.0, 0.1], &[0.0]], 0.6, 0.6);
+    let feature_motion = [Vector3::zeros(); 4];
+    let world = World::new(&model, &belief, &feature_motion);
+    for mut planner in planners(Point3::new(3.0, 0.0, 0.0)) {
+        let decision = planner.decide(&world.situation).unwrap();
+        assert!(decision.limits_waived && decision.compromised);
+        assert_eq!((decision.admissible, decision.safe), (0, 0));
+    }
+}
+
+proptest! {
+    /// Yaw to the left and to the right are as near to a goal straight ahead; rounding must not choose.
+    #[test]
+    fn of_mirrored_actions_the_first_is_nearest(
+        pose in common::pose(),
+        (ahead, above) in (-2.0..2.0, -2.0..2.0),
+        count in 1_usize..40,
+    ) {
+        let features = [[50.0, 0.0, 0.0], [51.0, 0.0, 0.0], [50.5, 1.0, 0.0], [50.5, 0.0, 1.0]];
+        let features = features.map(Point3::from);
+        let (mut model, belief) = common::world(&features, pose).unwrap();
+        let yaw = [-0.7, -0.3, 0.0, 0.3, 0.7];
+        model.actions = ActionSet::grid([&[0.0], &[0.0, 0.2], &yaw], [&[0.3, 0.1, 0.4], &[0.0, 0.2]], 9.0, 9.0);
+        let feature_motion = [Vector3::zeros(); 4];
+        let world = World::new(&model, &belief, &feature_motion);
+        let goal = pose.position + pose.orientation.rotation() * Vector3::new(ahead, 0.0, above);
+        let mut safe = world.found();
+        let all: Vec<Candidate> = safe.candidates().to_vec();
+        prop_assert_eq!(all.len(), 60);
+        safe.keep_nearest(&goal, count);
+
+        // Actions to the left have their mirror image one or three places on in the list of yaw angles.
+        let per_yaw = 6;
+        let mirrored = |i: usize| i / 30 * 30 + (4 - i % 30 / per_yaw) * per_yaw + i % per_yaw;
+        let kept: Vec<usize> = safe.candidates().iter().map(|c| c.index.unwrap()).collect();
+        for (place, &i) in kept.iter().enumerate() {
+            let first = i.min(mirrored(i));
+            let before = kept[..=place].contains(&first);
+            prop_assert!(before, "{i} before {first} in {kept:?}");
         }
     }
 }

@@ -1,28 +1,37 @@
 //! The page in a real browser, driven by browser.mjs.
 //!
-//! Needs node and Chromium; where one is missing the test says so and passes, unless
-//! `ADSLAM_REQUIRE_BROWSER` is set. `ADSLAM_CHROMIUM` names a browser that is not on the path.
+//! Needs node and Chromium; where one is missing the test says so, and fails in CI. `ADSLAM_NODE` and
+//! `ADSLAM_CHROMIUM` name programs that are not on the path.
 
 mod common;
 
-use std::env;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use adslam_experiment::run::RunHistory;
 use adslam_experiment::scenario::PlannerName;
 use adslam_replay::write_html;
+use adslam_test_programs::Program;
 use common::{history, history_with};
 
-/// The first of these programs that is on the path.
-fn program(names: &[&str]) -> Option<PathBuf> {
-    let path = env::var_os("PATH")?;
-    names
-        .iter()
-        .flat_map(|name| env::split_paths(&path).map(move |folder| folder.join(name)))
-        .find(|program| program.is_file())
-}
+const NODE: Program = Program {
+    what: "browser",
+    variable: "ADSLAM_NODE",
+    names: &["node"],
+    remedy: "Debian: apt-get install nodejs",
+};
+const CHROMIUM: Program = Program {
+    what: "browser",
+    variable: "ADSLAM_CHROMIUM",
+    names: &[
+        "chromium",
+        "chromium-browser",
+        "google-chrome",
+        "google-chrome-stable",
+    ],
+    remedy: "Debian: apt-get install chromium",
+};
 
 /// What has to be drawn at step 9.
 fn step_9(history: &RunHistory) -> serde_json::Value {
@@ -48,22 +57,7 @@ fn step_9(history: &RunHistory) -> serde_json::Value {
 
 #[test]
 fn pages_of_one_and_two_runs_work_in_a_browser() {
-    let chromium = env::var_os("ADSLAM_CHROMIUM")
-        .map(PathBuf::from)
-        .or_else(|| {
-            program(&[
-                "chromium",
-                "chromium-browser",
-                "google-chrome",
-                "google-chrome-stable",
-            ])
-        });
-    let (Some(node), Some(chromium)) = (program(&["node"]), chromium) else {
-        assert!(
-            env::var_os("ADSLAM_REQUIRE_BROWSER").is_none(),
-            "node or Chromium is missing"
-        );
-        println!("skipped: node or Chromium is missing (Debian: apt-get install nodejs chromium)");
+    let (Some(node), Some(chromium)) = (NODE.find(), CHROMIUM.find()) else {
         return;
     };
     let folder = tempfile::tempdir().unwrap();

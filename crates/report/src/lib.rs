@@ -14,6 +14,8 @@ mod marks;
 mod page;
 mod tables;
 
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use adslam_experiment::ExperimentError;
@@ -49,6 +51,27 @@ pub fn write(tables: &Tables, folder: &Path) -> Result<PathBuf, ExperimentError>
     let page = html(tables, &Machine::this());
     AtomicFile::with_content(&path, page.as_bytes())?.commit()?;
     Ok(path)
+}
+
+/// Removes report.html and the replays that [`write`] put beside it, if they are in `folder`.
+///
+/// # Errors
+/// A file that cannot be removed.
+pub fn remove(folder: &Path) -> Result<(), ExperimentError> {
+    let mut files = vec![folder.join(REPORT_FILE)];
+    if let Ok(entries) = fs::read_dir(folder.join(REPLAYS_FOLDER)) {
+        let paths = entries.flatten().map(|entry| entry.path());
+        files.extend(paths.filter(|path| path.extension().is_some_and(|e| e == "html")));
+    }
+    for path in files {
+        match fs::remove_file(&path) {
+            Err(cause) if cause.kind() != io::ErrorKind::NotFound => {
+                return Err(ExperimentError::Output { path, cause });
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 /// The page, for results that were made on `machine`.

@@ -2,7 +2,7 @@
 //!
 //! Marks differ in shape as well as in colour, and have their word as a text for screen readers.
 
-use adslam_experiment::tables::{Agreement, CellValue, ResultCell};
+use adslam_experiment::tables::{Agreement, ResultCell};
 use maud::{Markup, html};
 
 /// The width of a strip, and the half of it.
@@ -37,12 +37,10 @@ pub(crate) fn mark(agreement: Agreement) -> Markup {
 /// or the published value is zero.
 pub(crate) fn strip(cell: &ResultCell) -> Option<Markup> {
     let published = cell.published?.mean().filter(|value| *value > 0.0)?;
-    let CellValue::Spread { spread, .. } = cell.ours else {
-        return None;
-    };
+    let spread = cell.ours.spread()?;
     let [low, mean, high] = [spread.min, spread.mean, spread.max].map(|v| v / published);
     let label = format!(
-        "ours is {} of the published value, from {} to {}",
+        "our mean is {} of the published value, our runs are from {} to {}",
         times(mean),
         times(low),
         times(high)
@@ -50,7 +48,7 @@ pub(crate) fn strip(cell: &ResultCell) -> Option<Markup> {
     let (left, right) = (place(low), place(high));
     let at = place(mean);
     Some(html! {
-        span .ratio { (times(mean)) }
+        @if let Some(ratio) = cell.ratio() { span .ratio { (ratio) } }
         svg .strip viewBox={ "0 0 " (WIDTH) " 14" } role="img" aria-label=(label) {
             title { (label) }
             line .axis x1=(MARGIN) x2=(WIDTH - MARGIN) y1="7" y2="7" {}
@@ -85,7 +83,7 @@ fn number(x: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use adslam_experiment::tables::Spread;
+    use adslam_experiment::tables::{CellValue, Spread};
 
     fn cell(published: f64, ours: [f64; 3]) -> ResultCell {
         ResultCell {
@@ -97,7 +95,7 @@ mod tests {
                 spread: Spread::of(ours).unwrap(),
                 digits: 3,
             },
-            agreement: None,
+            comparison: None,
         }
     }
 
@@ -113,7 +111,7 @@ mod tests {
     #[test]
     fn what_lies_beyond_has_an_arrow_and_nothing_is_compared_with_nothing() {
         let within = strip(&cell(1.0, [0.5, 1.0, 2.0])).unwrap().into_string();
-        assert!(within.contains("1.17×") && !within.contains("beyond"));
+        assert!(within.contains("our mean is 1.17× of") && !within.contains("beyond"));
         let beyond = strip(&cell(1.0, [0.0, 1.0, 9.0])).unwrap().into_string();
         assert_eq!(beyond.matches("beyond").count(), 2);
         assert!(strip(&cell(0.0, [0.5, 1.0, 2.0])).is_none());

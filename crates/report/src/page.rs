@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use adslam_experiment::tables::{
-    AGREES_WITHIN, Agreement, ExperimentTables, NEAR_WITHIN, SourceFile, Tables,
-};
+use adslam_experiment::provenance::remark;
+use adslam_experiment::tables::{Agreement, ExperimentTables, NEAR_WITHIN, SourceFile, Tables};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::drawings::figures;
@@ -79,6 +78,9 @@ fn troubles(tables: &Tables) -> Markup {
         @if tables.interrupted {
             p .warning { "Interrupted: the runs that had finished are tabulated." }
         }
+        @if let Some(remark) = remark(&tables.builds) {
+            p .warning { (remark.replace("**", "")) }
+        }
         @for failure in &tables.failures { p .warning { "A run failed: " (failure) } }
         @for warning in &tables.warnings { p .warning { (warning) } }
     }
@@ -89,14 +91,14 @@ fn legend(tables: &Tables) -> Markup {
     if tables.experiments.iter().all(|e| e.published.is_none()) {
         return html! {};
     }
-    let percent = |share: f64| format!("{:.0} %", 100.0 * share);
-    let (agrees, near) = (percent(AGREES_WITHIN), percent(NEAR_WITHIN));
+    let near = format!("{:.0} %", 100.0 * NEAR_WITHIN);
     let meaning = |agreement| match agreement {
-        Agreement::Agrees => format!(
-            "the published value lies within the range of our runs, or our mean is within \
-             {agrees} of it"
-        ),
-        Agreement::Near => format!("our mean is within {near} of it"),
+        Agreement::Agrees => {
+            "the published value lies where as many runs of ours as were published would lie in \
+             95 % of cases"
+                .to_owned()
+        }
+        Agreement::Near => format!("it does not, but ours is within {near} of it"),
         Agreement::Lower => "ours is farther below".to_owned(),
         Agreement::Higher => "ours is farther above".to_owned(),
     };
@@ -107,7 +109,9 @@ fn legend(tables: &Tables) -> Markup {
                 span .ours { "ours, the mean over the runs (range)" }
                 ". The strip shows our mean and range as multiples of the published value, \
                  which is the line in the middle; its ends are a quarter and four times of it. \
-                 The value of a single published run is compared with all our runs."
+                 The ratio beside it is that of what is compared: of means ours over theirs, of largest errors \
+                 the largest expected of as many runs of ours. The value of a single published run is compared \
+                 with all our runs."
             }
             ul {
                 @for agreement in Agreement::ALL {

@@ -39,12 +39,13 @@ fn is_single(row: &ResultRow) -> bool {
 fn cell(cell: &ResultCell) -> Markup {
     html! {
         td .compared[cell.published.is_some()] {
-            @if let Some(agreement) = cell.agreement { (mark(agreement)) }
+            @if let Some(agreement) = cell.agreement() { (mark(agreement)) }
             @if let Some(published) = cell.published {
                 span .published title="published" { (published) }
             }
             span .ours title="ours" { (cell.ours) }
             @if let Some(strip) = strip(cell) { span .compare { (strip) } }
+            @else if let Some(ratio) = cell.ratio() { span .compare { span .ratio { (ratio) } } }
         }
     }
 }
@@ -55,14 +56,14 @@ pub(crate) fn overview(tables: &Tables) -> Markup {
         .experiments
         .iter()
         .flat_map(|e| e.paper_tables())
-        .filter(|table| cells(table).any(|cell| cell.agreement.is_some()))
+        .filter(|table| cells(table).any(|cell| cell.agreement().is_some()))
         .collect();
     if all.is_empty() {
         return html! {};
     }
     let count = |table: &ResultTable, agreement: Agreement| {
         cells(table)
-            .filter(|cell| cell.agreement == Some(agreement))
+            .filter(|cell| cell.agreement() == Some(agreement))
             .count()
     };
     html! {

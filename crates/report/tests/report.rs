@@ -7,7 +7,7 @@ use std::path::Path;
 use adslam_experiment::config::{Config, Selection};
 use adslam_experiment::run::Interrupt;
 use adslam_experiment::scenario::PlannerName;
-use adslam_experiment::tables::{ResultCell, TablePlan, Tables, TablesOptions};
+use adslam_experiment::tables::{ResultCell, TablePlan, Tables};
 use adslam_report::{Machine, html, write};
 
 /// Two runs of two quick planners around the polygon, the first of each recorded or not.
@@ -18,16 +18,17 @@ fn tables(record: bool) -> Tables {
         plan.planners
             .retain(|p| matches!(p, PlannerName::Predetermined | PlannerName::Global));
     }
-    let options = TablesOptions {
-        selection: Selection {
-            runs: Some(2),
-            only: vec!["polygon".to_owned()],
-            mesh: None,
-        },
-        record,
+    let selection = Selection {
+        runs: Some(2),
+        only: vec!["polygon".to_owned()],
+        mesh: None,
     };
-    let plan = TablePlan::new(config, &options).unwrap();
-    plan.run(&Interrupt::new(), &|| ())
+    let plan = TablePlan::new(config, &selection).unwrap();
+    let mut tables = plan.run(&Interrupt::new(), &|| ());
+    if record {
+        plan.record(&mut tables, &Interrupt::new()).unwrap();
+    }
+    tables
 }
 
 fn machine() -> Machine {
@@ -48,7 +49,10 @@ fn every_compared_cell_has_its_mark_and_the_sources_are_there() {
         .flat_map(|t| &t.rows)
         .flat_map(|r| &r.cells)
         .collect();
-    let compared = cells.iter().filter(|cell| cell.agreement.is_some()).count();
+    let compared = cells
+        .iter()
+        .filter(|cell| cell.agreement().is_some())
+        .count();
     assert!(compared > 20, "{compared}");
     // Beside those: four in the head of the overview and four in the legend.
     assert_eq!(page.matches("<svg class=\"mark ").count(), compared + 8);

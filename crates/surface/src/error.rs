@@ -138,6 +138,17 @@ pub enum SurfaceError {
         /// The most that is read.
         limit: u64,
     },
+    /// A concave polygon of very many corners.
+    #[error(
+        "a polygon that is not convex has {corners} corners, and {limit} are the most: cut it into triangles in the \
+         program that it comes from"
+    )]
+    LongPolygon {
+        /// How many it has.
+        corners: usize,
+        /// The most that are cut.
+        limit: usize,
+    },
     /// A file of no bytes or no triangles.
     #[error("the file holds no triangles: export the mesh again")]
     EmptyMesh,
@@ -155,7 +166,7 @@ pub enum SurfaceError {
         given: u64,
     },
     /// Bytes that are not of the format they should be.
-    #[error("this is not {format}, {place}: {reason}; export the mesh again")]
+    #[error("this cannot be read as {format}, {place}: {reason}; export the mesh again")]
     Malformed {
         /// What it should be.
         format: MeshFormat,

@@ -26,6 +26,7 @@ mod hull;
 mod inspection;
 mod mesh;
 mod mesh_file;
+mod near;
 mod phantom;
 mod predicates;
 mod spatial;
@@ -40,6 +41,7 @@ pub use features::pick_features;
 pub use inspection::Inspection;
 pub use mesh::Mesh;
 pub use mesh_file::{MAX_MESH_BYTES, MAX_MESH_FACES, MeshFile, MeshFormat};
+pub use near::NearJoin;
 pub use phantom::{
     DEFAULT_PHANTOM_SPACING_CM, MAX_PHANTOM_SPACING_CM, MIN_PHANTOM_SPACING_CM, heart_phantom,
 };

@@ -1,7 +1,5 @@
 //! A triangle mesh at rest, read from a file or generated.
 
-use std::path::Path;
-
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use crate::edges::pair_edges;
@@ -19,23 +17,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Reads an STL, OBJ or PLY file, in its own unit, as [`MeshFile::read`] does.
-    ///
-    /// # Errors
-    /// [`SurfaceError::InFile`] with the path and the reason: all of [`MeshFile::read`], and
-    /// unusable coordinates and surfaces that are not closed.
-    pub fn read(path: &Path) -> Result<Self, SurfaceError> {
-        let MeshFile { mesh, .. } = MeshFile::read(path)?;
-        match mesh.check_closed() {
-            Ok(()) => Ok(mesh),
-            Err(cause) => Err(SurfaceError::InFile {
-                path: path.into(),
-                cause: Box::new(cause),
-            }),
-        }
-    }
-
-    /// As [`Mesh::read`], from the bytes of a file.
+    /// A closed mesh from the bytes of a file, in its own unit.
     ///
     /// # Errors
     /// All of [`MeshFile::parse`], unusable coordinates, not closed.

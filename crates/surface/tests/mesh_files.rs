@@ -149,11 +149,11 @@ fn bad_lines_of_obj_files_are_named() {
         ("v 1 x 0", ["line 4", "\"x\" is not a number"]),
         ("v 1 0", ["line 4", "fewer than 3 coordinates"]),
         ("f 1 2", ["line 4", "a face with 2 corners"]),
-        ("f 1 2 4", ["line 4", "names vertex 4, and 3 came before"]),
-        ("f 0 1 2", ["line 4", "names vertex 0, and 3 came before"]),
+        ("f 1 2 4", ["line 4", "names vertex 4, and there are 3"]),
+        ("f 0 1 2", ["line 4", "names vertex 0, and there are 3"]),
         ("f -4 1 2", ["line 4", "names vertex -4, and 3 came before"]),
         ("f 1 2 three", ["line 4", "\"three\" is not the number"]),
-        ("f 1 2 9223372036854775807", ["line 4", "and 3 came before"]),
+        ("f 1 2 9223372036854775807", ["line 4", "and there are 3"]),
         (
             "f 1 2 -9223372036854775808",
             ["line 4", "and 3 came before"],
@@ -202,11 +202,28 @@ fn headers_of_ply_files_are_believed_only_as_far_as_there_are_bytes() {
         (
             "element face 12",
             "element side 12",
-            ["in the header", "no element face"],
+            ["in the header", "no element face or tristrips"],
         ),
-        ("3 ", "3 -", ["line", "vertex_indices"]),
-        ("3 ", "200 ", ["line", "200"]),
-        ("7\n", "7 x\n", ["line 12", "element line"]),
+        ("\n3 ", "\n3 -1 ", ["face 0", "names vertex -1"]),
+        ("\n3 ", "\n200 ", ["line 20", "fewer numbers"]),
+        ("\n3 ", "\n-3 ", ["line 20", "a list of -3"]),
+        (" 7\n", "\n", ["line 12", "fewer numbers"]),
+        ("7\n", "x\n", ["line 12", "\"x\" is not a number"]),
+        (
+            "uchar red",
+            "colour red",
+            ["line 8", "\"colour\" is no type"],
+        ),
+        (
+            "end_header",
+            "end",
+            ["line 11", "\"end\" is not understood"],
+        ),
+        (
+            "format ascii 1.0\n",
+            "",
+            ["in the header", "no line \"format\""],
+        ),
         ("format ascii", "format morse", ["line 2", "morse"]),
     ] {
         assert!(good.contains(old));
@@ -226,7 +243,9 @@ fn headers_of_ply_files_are_believed_only_as_far_as_there_are_bytes() {
     );
     let binary = binary_ply(&mesh(cube()), false);
     let cut = &binary[..binary.len() - 1];
-    refused(MeshFormat::Ply, cut, &["after the header", "end of file"]);
+    refused(MeshFormat::Ply, cut, &["face 11", "end of file"]);
+    let cut = &good.as_bytes()[..good.len() - 5];
+    refused(MeshFormat::Ply, cut, &["line 31", "fewer numbers"]);
 }
 
 #[test]
@@ -259,7 +278,12 @@ fn name_and_content_must_agree() {
     let error = read("mesh.obj", b"Dear diary").unwrap_err();
     assert!(error.contains("no triangles"), "{error}");
     let error = read("mesh.ply", b"Dear diary").unwrap_err();
-    assert!(error.contains("this is not PLY"), "{error}");
+    assert!(error.contains("cannot be read as PLY, line 1"), "{error}");
+    let error = read("mesh.stl", b"Dear diary").unwrap_err();
+    assert!(
+        error.contains("cannot be read as STL, at its start"),
+        "{error}"
+    );
 }
 
 #[test]

@@ -9,7 +9,7 @@ mod common;
 
 use std::path::Path;
 
-use adslam_surface::{MAX_MESH_FACES, Mesh, MeshFormat, SurfaceError};
+use adslam_surface::{MAX_MESH_FACES, Mesh, MeshFile, MeshFormat, SurfaceError};
 use common::{Point, cube, mesh, sphere};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -106,10 +106,6 @@ fn bad_bytes_are_refused_with_the_reason() {
         bad(b"solid nothing\nfacet normal"),
         SurfaceError::Malformed { .. }
     ));
-    assert!(matches!(
-        bad(b"solid \xff\xfe\n"),
-        SurfaceError::Malformed { .. }
-    ));
     assert!(matches!(bad(&[0; 84]), SurfaceError::EmptyMesh));
 
     let error = bad(&good[..good.len() - 1]);
@@ -125,7 +121,7 @@ fn bad_bytes_are_refused_with_the_reason() {
     let text = ascii(&mesh(cube()));
     let error = bad(&text.as_bytes()[..text.len() / 2]);
     assert!(
-        matches!(error, SurfaceError::Malformed { ref place, .. } if place == "near triangle 5"),
+        matches!(error, SurfaceError::Malformed { ref place, .. } if place == "line 43"),
         "{error}"
     );
 
@@ -140,7 +136,7 @@ fn bad_bytes_are_refused_with_the_reason() {
         }
     ));
     let letters = [b'x'; 1000];
-    assert!(matches!(bad(&letters), SurfaceError::WrongSize { .. }));
+    assert!(matches!(bad(&letters), SurfaceError::Malformed { .. }));
     let faces = MAX_MESH_FACES + 1;
     let mut many = vec![0; 84 + 50 * usize::try_from(faces).unwrap()];
     many[80..84].copy_from_slice(&u32::try_from(faces).unwrap().to_le_bytes());
@@ -157,11 +153,12 @@ fn bad_bytes_are_refused_with_the_reason() {
         bad(&infinite),
         SurfaceError::UnusablePoint { index: 0, .. }
     ));
-    let nan = text.replacen("vertex -1", "vertex NaN", 1);
-    assert!(matches!(
-        bad(nan.as_bytes()),
-        SurfaceError::Malformed { .. }
-    ));
+    for word in ["NaN", "inf", "1e39"] {
+        let text = text.replacen("vertex -1", &format!("vertex {word}"), 1);
+        let error = bad(text.as_bytes());
+        let is_first = matches!(error, SurfaceError::UnusablePoint { index: 0, .. });
+        assert!(is_first, "{word}: {error}");
+    }
 
     let mut open = mesh(cube());
     open.faces.pop();
@@ -184,7 +181,7 @@ fn bad_bytes_are_refused_with_the_reason() {
 fn bad_files_are_named_in_the_error() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mesh.stl");
-    let inner = |path: &Path| match Mesh::read(path).unwrap_err() {
+    let inner = |path: &Path| match MeshFile::read(path).unwrap_err() {
         SurfaceError::InFile { path: named, cause } => {
             assert_eq!(named, path);
             *cause
@@ -218,7 +215,7 @@ fn bad_files_are_named_in_the_error() {
     std::fs::write(&path, b"").unwrap();
     assert!(matches!(inner(&path), SurfaceError::EmptyMesh));
     std::fs::write(&path, binary(&mesh(cube()), b"")).unwrap();
-    assert_eq!(Mesh::read(&path).unwrap().faces.len(), 12);
+    assert_eq!(MeshFile::read(&path).unwrap().mesh.faces.len(), 12);
 }
 
 #[test]
@@ -250,7 +247,7 @@ fn ct_heart_where_there_is_one() {
         println!("skipped: ADSLAM_HEART_STL does not name a file");
         return;
     };
-    let heart = Mesh::read(Path::new(&path)).unwrap();
+    let heart = MeshFile::read(Path::new(&path)).unwrap().mesh;
     assert_eq!((heart.faces.len(), heart.vertices.len()), (19086, 9543));
     let heart = heart.scaled_and_moved(0.1, Vector3::new(5.0, 18.0, 110.0));
     let nearest = heart

@@ -33,7 +33,7 @@ pub struct BenchReportArgs {
 /// The benchmarks: package and target.
 const BENCHES: [(&str, &str); 3] = [
     ("adslam-surface", "visibility"),
-    ("adslam-planning", "decision"),
+    ("adslam-tests", "decision"),
     ("adslam-estimator", "filter"),
 ];
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use adslam_experiment::diagnostics::FileKind;
 use adslam_experiment::scenario::LengthUnit;
+use adslam_experiment::scenario::values::{NonNegative, ValueError};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Subcommand, ValueEnum};
 
@@ -98,6 +99,9 @@ pub struct MeshArgs {
     /// The unit of its coordinates
     #[arg(long, default_value_t, value_name = "UNIT", value_parser = NameParser::<LengthUnit>::new())]
     pub unit: LengthUnit,
+    /// Join vertices that lie within this distance of each other, in cm; 0 joins equal ones only
+    #[arg(long, default_value = "0", value_name = "CM", value_parser = distance)]
+    pub join_within: NonNegative,
     /// Features that a scenario would pick from it
     #[arg(
         long,
@@ -109,4 +113,9 @@ pub struct MeshArgs {
     /// Answer with one JSON object
     #[arg(long)]
     pub json: bool,
+}
+
+fn distance(given: &str) -> Result<NonNegative, ValueError> {
+    // What is no number is answered like one that is out of range.
+    NonNegative::new(given.parse().unwrap_or(f64::NAN))
 }

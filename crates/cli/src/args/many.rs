@@ -1,6 +1,6 @@
 //! The arguments of the commands about many runs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use adslam_experiment::config::Selection;
 use adslam_experiment::scenario::EstimatorName;
@@ -16,15 +16,28 @@ pub struct TablesArgs {
     /// What of it is run
     #[command(flatten)]
     pub selection: SelectionArgs,
-    /// The folder to write to; made if it does not exist
-    #[arg(long, default_value = "results", value_name = "DIR")]
-    pub out: PathBuf,
+    /// The folder to write to, and to go on in; made if it does not exist. Where not given, results/NAME for the
+    /// configuration NAME.toml
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Go on with runs that another build of adslam did, and say so in the tables
+    #[arg(long)]
+    pub accept_build: bool,
     /// Write report.html too, a page with figures to open in a browser, and replays beside it
     #[arg(long)]
     pub html: bool,
     /// Answer with one JSON object
     #[arg(long)]
     pub json: bool,
+}
+
+impl TablesArgs {
+    /// The folder to write to.
+    #[must_use]
+    pub fn folder(&self) -> PathBuf {
+        let named = || Path::new("results").join(self.config.file_stem().unwrap_or_default());
+        self.out.clone().unwrap_or_else(named)
+    }
 }
 
 /// `adslam sweep`
@@ -38,6 +51,9 @@ pub struct SweepArgs {
     /// The folder to write to, and to go on in; made if it does not exist
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// Go on with runs that another build of adslam did, and say so in the tables
+    #[arg(long)]
+    pub accept_build: bool,
     /// Answer with one JSON object
     #[arg(long)]
     pub json: bool,
@@ -80,9 +96,12 @@ pub struct ConsistencyArgs {
     /// Only this estimator: euler_ekf, so3_ekf or right_invariant_ekf; may be given again. All where not given
     #[arg(long = "estimator", value_name = "NAME", value_parser = NameParser::<EstimatorName>::new())]
     pub estimators: Vec<EstimatorName>,
-    /// The folder to write to and to go on in; made if it does not exist
+    /// The folder to write to, and to go on in; made if it does not exist
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// Go on with runs that another build of adslam did, and say so in the tables
+    #[arg(long)]
+    pub accept_build: bool,
     /// Answer with one JSON object
     #[arg(long)]
     pub json: bool,

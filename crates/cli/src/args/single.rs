@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use adslam_experiment::log::GateChoice;
+use adslam_experiment::output::TumFile;
 use adslam_experiment::scenario::values::{GateProbability, ValueError};
-use adslam_experiment::scenario::{EstimatorName, PlannerName};
+use adslam_experiment::scenario::{EstimatorName, LengthUnit, PlannerName};
 use clap::{Args, ValueEnum};
 
 use crate::named::NameParser;
@@ -28,6 +30,17 @@ pub struct RunArgs {
     /// Write replay.html too, a page to open in a browser
     #[arg(long)]
     pub html: bool,
+    /// Write log.jsonl too: what the filter was given and the truth, for adslam filter
+    #[arg(long)]
+    pub log: bool,
+    /// Unit of the positions in truth.tum and estimate.tum: mm, cm or m; evo expects m
+    #[arg(
+        long,
+        default_value_t = TumFile::USUAL_UNIT,
+        value_name = "UNIT",
+        value_parser = NameParser::<LengthUnit>::new()
+    )]
+    pub unit: LengthUnit,
     /// Answer with one JSON object
     #[arg(long)]
     pub json: bool,
@@ -81,17 +94,30 @@ pub enum ExportFormat {
 /// `adslam filter`
 #[derive(Debug, Args)]
 pub struct FilterArgs {
-    /// The log
+    /// The log, packed with gzip or not; - for the standard input
     pub log: PathBuf,
-    /// The file of estimates to write
+    /// The file of estimates to write; - for the standard output
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
-    /// The estimator: euler_ekf, so3_ekf or right_invariant_ekf
-    #[arg(long, value_name = "NAME", default_value_t, value_parser = NameParser::<EstimatorName>::new())]
-    pub estimator: EstimatorName,
-    /// Keep out feature measurements less likely than this: the part of good ones that pass, such as 0.999
-    #[arg(long, value_name = "PROBABILITY", value_parser = probability)]
-    pub gate: Option<GateProbability>,
+    /// Write the estimated trajectory too, in the TUM format of the evo tools
+    #[arg(long, value_name = "FILE")]
+    pub tum: Option<PathBuf>,
+    /// Unit of the positions in that trajectory: mm, cm or m; evo expects m
+    #[arg(
+        long,
+        requires = "tum",
+        default_value_t = TumFile::USUAL_UNIT,
+        value_name = "UNIT",
+        value_parser = NameParser::<LengthUnit>::new()
+    )]
+    pub unit: LengthUnit,
+    /// The estimator: euler_ekf, so3_ekf or right_invariant_ekf; where not given, the log's, or else euler_ekf
+    #[arg(long, value_name = "NAME", value_parser = NameParser::<EstimatorName>::new())]
+    pub estimator: Option<EstimatorName>,
+    /// Keep out feature measurements less likely than this: the part of good ones that pass, such as 0.999,
+    /// or none to keep all; where not given, as the log says, or else none
+    #[arg(long, value_name = "PROBABILITY", value_parser = gate)]
+    pub gate: Option<GateChoice>,
     /// At a line that cannot be used, keep the estimates up to the line before
     #[arg(long)]
     pub keep_complete: bool,
@@ -100,7 +126,10 @@ pub struct FilterArgs {
     pub json: bool,
 }
 
-fn probability(given: &str) -> Result<GateProbability, ValueError> {
+fn gate(given: &str) -> Result<GateChoice, ValueError> {
+    if given == "none" {
+        return Ok(GateChoice::All);
+    }
     // What is no number is answered like one that is out of range.
-    GateProbability::new(given.parse().unwrap_or(f64::NAN))
+    GateProbability::new(given.parse().unwrap_or(f64::NAN)).map(GateChoice::Probability)
 }

@@ -1,14 +1,17 @@
 //! `adslam consistency`
 
+use std::path::{Path, PathBuf};
+
 use adslam_experiment::ExperimentError;
 use adslam_experiment::consistency::{ConsistencyPlan, ConsistencyResults, Measure, Verdict};
 use adslam_experiment::output::prepare_folder;
 use adslam_experiment::run::Interrupt;
 use adslam_experiment::scenario::{EstimatorName, Named};
 
-use super::study::finish;
+use super::study::{finish, other_builds, tell_if_partial};
 use crate::ConsistencyArgs;
 use crate::answer::Answer;
+use crate::paths::folder_of;
 
 /// Does the runs of a consistency study that are not there yet, and says what they show.
 ///
@@ -30,7 +33,7 @@ fn judge(
     let plan = ConsistencyPlan::load(&args.config, &args.selection.selection(), estimators)?;
     answer.warn(&plan.warnings());
     answer.set("title", &plan.title);
-    let mut study = plan.open(&args.out)?;
+    let mut study = plan.open(&args.out, other_builds(args.accept_build))?;
     let end = finish(
         &mut study,
         &args.out,
@@ -38,17 +41,12 @@ fn judge(
         interrupt,
         ConsistencyPlan::run,
     )?;
-    let results = ConsistencyResults::new(&plan, study.records());
-    answer.warn(&results.warnings);
-    let mut files = results.write(&args.out)?;
-    let figures = args.out.join("figures");
-    prepare_folder(&figures)?;
-    for label in results.labels() {
-        for measure in [Measure::PoseNees, Measure::FeatureNis] {
-            let figure = adslam_figures::consistency(label, measure, &results)?;
-            files.extend(figure.write(&figures)?);
-        }
+    if end.interrupted {
+        return end.into_result();
     }
+    let results = ConsistencyResults::new(&plan, study.records(), study.builds());
+    answer.warn(&results.warnings);
+    let files = study.write_results(|folder| write(&results, folder))?;
     answer.set_files(&files);
     answer.set("cells", &results.cells);
     for cell in &results.cells {
@@ -75,7 +73,22 @@ fn judge(
     answer.say(format_args!(
         "wrote consistency.md and {} other files to {}",
         files.len() - 1,
-        args.out.display()
+        folder_of(&files[0]).display()
     ));
+    tell_if_partial(&study, answer);
     end.into_result()
+}
+
+/// The tables, and figures beside them.
+fn write(results: &ConsistencyResults, folder: &Path) -> Result<Vec<PathBuf>, ExperimentError> {
+    let mut files = results.write(folder)?;
+    let figures = folder.join("figures");
+    prepare_folder(&figures)?;
+    for label in results.labels() {
+        for measure in [Measure::PoseNees, Measure::FeatureNis] {
+            let figure = adslam_figures::consistency(label, measure, results)?;
+            files.extend(figure.write(&figures)?);
+        }
+    }
+    Ok(files)
 }

@@ -1,6 +1,6 @@
 //! `adslam mesh`
 
-use adslam_experiment::{ExperimentError, MeshReport};
+use adslam_experiment::{ExperimentError, MeshReport, MeshUse};
 
 use crate::MeshArgs;
 use crate::answer::Answer;
@@ -11,7 +11,12 @@ use crate::answer::Answer;
 /// A file that cannot be read as a mesh, or a mesh that will not serve, after it has been described.
 pub fn mesh(args: &MeshArgs) -> Result<(), ExperimentError> {
     Answer::give(args.json, |answer| {
-        let report = MeshReport::read(&args.file, args.unit, args.features)?;
+        let wanted = MeshUse {
+            unit: args.unit,
+            join_within_cm: args.join_within,
+            features: args.features,
+        };
+        let report = MeshReport::read(&args.file, wanted)?;
         answer.set("mesh", &report);
         answer.say(&report);
         Ok(report.into_result()?)

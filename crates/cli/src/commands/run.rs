@@ -1,17 +1,15 @@
 //! `adslam run`
 
 use adslam_experiment::ExperimentError;
+use adslam_experiment::log::LogRecorder;
 use adslam_experiment::run::{
-    Interrupt, Observer, PAGE_FILE, RunRecorder, Setup, StepView, simulate,
+    Interrupt, Observer, PAGE_FILE, RunRecorder, RunReport, Setup, StepView, simulate,
 };
 use adslam_experiment::scenario::{Named, Scenario};
 use indicatif::ProgressBar;
 
 use crate::answer::Answer;
 use crate::{RunArgs, progress};
-
-const UNSEEN: &str = "the robot saw no feature in the whole run; is the object where it should be? \
-    adslam replay shows it";
 
 /// Runs one planner once and writes the run into a folder.
 ///
@@ -32,23 +30,28 @@ fn run_once(
     }
     let setup = Setup::new(&scenario)?;
     answer.warn(&setup.warnings);
-    let recorder = RunRecorder::create(&args.out, &setup, args.planner, args.seed)?;
+    let recorder = RunRecorder::create(&args.out, &setup, args.planner, args.seed, args.unit)?;
+    let log = || LogRecorder::create(&args.out, &setup, args.planner, args.seed);
     let mut observer = Shown {
         recorder,
+        log: args.log.then(log).transpose()?,
         bar: progress::bar(setup.steps, "steps"),
     };
     let result = simulate(&setup, args.planner, args.seed, interrupt, &mut observer);
     observer.bar.finish_and_clear();
     let outcome = result?;
     answer.warn(&outcome.warnings);
-    let recorder = observer.recorder;
+    let Shown { recorder, log, .. } = observer;
     let page = || adslam_replay::to_file(&[recorder.history()], &args.out.join(PAGE_FILE));
     let page = args.html.then(page).transpose()?;
-    let files = recorder.commit(&outcome.summary, page.into_iter().collect())?;
+    let others = page.into_iter().chain(log.map(LogRecorder::finish));
+    let warnings = [setup.warnings.as_slice(), &outcome.warnings].concat();
     let summary = &outcome.summary;
-    if summary.observed == 0 {
-        answer.warn(&[UNSEEN.to_owned()]);
-    }
+    let report = RunReport {
+        summary,
+        warnings: &warnings,
+    };
+    let files = recorder.commit(&report, others.collect())?;
     let coverage = summary
         .steps_to_full_coverage
         .map_or("not all seen".to_owned(), |step| {
@@ -56,7 +59,7 @@ fn run_once(
         });
     answer.set("scenario", &setup.name);
     answer.set("planner", args.planner.as_str());
-    answer.set("summary", summary);
+    answer.set("summary", report);
     answer.set_files(&files);
     answer.say(format_args!(
         "{}, {}, seed {}: observed {} feature times, {coverage}, mean pose error {:.3} (drift \
@@ -84,12 +87,16 @@ fn run_once(
 /// Writes the run down and shows how far it is.
 struct Shown<'a> {
     recorder: RunRecorder<'a>,
+    log: Option<LogRecorder<'a>>,
     bar: ProgressBar,
 }
 
 impl Observer for Shown<'_> {
     fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
         self.bar.set_position(view.step as u64);
+        if let Some(log) = &mut self.log {
+            log.step(view)?;
+        }
         self.recorder.step(view)
     }
 }

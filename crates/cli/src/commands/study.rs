@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use adslam_experiment::ExperimentError;
+use adslam_experiment::provenance::remark;
 use adslam_experiment::run::Interrupt;
-use adslam_experiment::study::{Study, StudyEnd, StudyUnit};
+use adslam_experiment::study::{OtherBuilds, Study, StudyEnd, StudyUnit};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -12,10 +13,20 @@ use crate::answer::Answer;
 use crate::print::tell;
 use crate::progress;
 
+/// What `--accept-build` says.
+pub(super) const fn other_builds(accept: bool) -> OtherBuilds {
+    if accept {
+        OtherBuilds::Accept
+    } else {
+        OtherBuilds::Refuse
+    }
+}
+
 /// Does the runs of a study that are not in its folder yet, with a bar, and tells how many there are.
 ///
 /// # Errors
-/// A record that cannot be written, or an interruption; failed runs are in what is returned.
+/// A record that cannot be written. Failed runs and an interruption are in what is returned; of failed runs before an
+/// interruption the user has been told.
 pub(super) fn finish<'a, R, W>(
     study: &mut Study<'a, R>,
     folder: &Path,
@@ -48,13 +59,24 @@ where
     let end = end?;
     answer.set("complete", done == total);
     answer.set("failures", &end.failures);
-    if end.interrupted {
-        if !end.failures.is_empty() {
-            // The interruption is what the command ends with, and tells nothing of these.
-            let failures = end.failures.clone();
-            tell(ExperimentError::Runs { failures });
-        }
-        end.clone().into_result()?;
+    let builds = study.builds();
+    if let Some(remark) = remark(&builds) {
+        answer.warn(&[remark.replace("**", "")]);
+    }
+    answer.set("builds", builds);
+    if end.interrupted && !end.failures.is_empty() {
+        // The interruption is what the command ends with, and tells nothing of these.
+        let failures = end.failures.clone();
+        tell(ExperimentError::Runs { failures });
     }
     Ok(end)
+}
+
+/// Says that results of a part of the runs do not lie where whole ones would.
+pub(super) fn tell_if_partial<R>(study: &Study<'_, R>, answer: &Answer) {
+    if !study.is_complete() {
+        answer.say(
+            "the tables lack runs, so they lie apart, and what was complete before stays as it was",
+        );
+    }
 }

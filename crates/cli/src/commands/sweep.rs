@@ -2,11 +2,13 @@
 
 use adslam_experiment::ExperimentError;
 use adslam_experiment::run::Interrupt;
+use adslam_experiment::study::SummaryRecord;
 use adslam_experiment::sweep::{SweepPlan, SweepResults};
 
-use super::study::finish;
+use super::study::{finish, other_builds, tell_if_partial};
 use crate::SweepArgs;
 use crate::answer::Answer;
+use crate::paths::folder_of;
 
 /// Does the runs of a sweep that are not there yet, and writes its tables.
 ///
@@ -23,12 +25,21 @@ fn run_missing(
 ) -> Result<(), ExperimentError> {
     let plan = SweepPlan::load(&args.sweep, args.runs)?;
     answer.warn(&plan.warnings());
-    let mut study = plan.open(&args.out)?;
+    let mut study = plan.open(&args.out, other_builds(args.accept_build))?;
     answer.set("title", &plan.sweep().title);
-    let end = finish(&mut study, &args.out, answer, interrupt, SweepPlan::run)?;
-    let results = SweepResults::new(&plan, study.records());
+    let end = finish(
+        &mut study,
+        &args.out,
+        answer,
+        interrupt,
+        SummaryRecord::of_unit,
+    )?;
+    if end.interrupted {
+        return end.into_result();
+    }
+    let results = SweepResults::new(&plan, study.records(), study.builds());
     answer.warn(&results.warnings());
-    let files = results.write(&args.out)?;
+    let files = study.write_results(|folder| results.write(folder))?;
     answer.set_files(&files);
     let names: Vec<String> = files
         .iter()
@@ -39,7 +50,8 @@ fn run_missing(
         study.done(),
         plan.sweep().points.len(),
         names.join(", "),
-        args.out.display()
+        folder_of(&files[0]).display()
     ));
+    tell_if_partial(&study, answer);
     end.into_result()
 }

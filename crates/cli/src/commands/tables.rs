@@ -1,68 +1,74 @@
 //! `adslam tables`
 
+use std::fs;
+use std::path::{Path, PathBuf};
+
 use adslam_experiment::ExperimentError;
-use adslam_experiment::output::{AtomicFile, prepare_folder};
+use adslam_experiment::output::AtomicFile;
 use adslam_experiment::run::Interrupt;
-use adslam_experiment::tables::{TablePlan, TablesOptions, markdown, terminal, write_json};
+use adslam_experiment::study::SummaryRecord;
+use adslam_experiment::tables::{TablePlan, Tables, json, markdown, terminal};
 
+use super::study::{finish, other_builds, tell_if_partial};
+use crate::TablesArgs;
 use crate::answer::Answer;
-use crate::paths::shown;
-use crate::print::tell;
-use crate::{TablesArgs, progress};
+use crate::paths::{folder_of, shown};
 
-/// Runs a configuration, prints its tables, and writes tables.md and tables.json, and report.html
-/// where it is asked for.
+/// Does the runs of a configuration that are not there yet, prints its tables, and writes tables.md and tables.json,
+/// and report.html where it is asked for.
 ///
-/// Interrupted, it still tabulates and writes the runs that have finished.
+/// Interrupted, it still prints the tables of the runs that have finished, and writes none.
 ///
 /// # Errors
 /// Bad input, runs that failed, files that cannot be written, or an interruption.
 pub fn tables(args: &TablesArgs, interrupt: &Interrupt) -> Result<(), ExperimentError> {
-    Answer::give(args.json, |answer| run_all(args, interrupt, answer))
+    Answer::give(args.json, |answer| run_missing(args, interrupt, answer))
 }
 
-fn run_all(
+fn run_missing(
     args: &TablesArgs,
     interrupt: &Interrupt,
     answer: &mut Answer,
 ) -> Result<(), ExperimentError> {
-    let options = TablesOptions {
-        selection: args.selection.selection(),
-        record: args.html,
-    };
-    let plan = TablePlan::load(&args.config, &options)?;
-    prepare_folder(&args.out)?;
-    let (md, json) = (args.out.join("tables.md"), args.out.join("tables.json"));
-    let mut files = (AtomicFile::create(&md)?, AtomicFile::create(&json)?);
-    let bar = progress::bar(plan.total_runs(), "runs");
-    let tables = plan.run(interrupt, &|| bar.inc(1));
-    bar.finish_and_clear();
-    files.0.add(&markdown(&tables))?;
-    write_json(&tables, &mut files.1)?;
-    AtomicFile::commit_all(vec![files.0, files.1])?;
+    let out = args.folder();
+    let plan = TablePlan::load(&args.config, &args.selection.selection())?;
+    let mut study = plan.open(&out, other_builds(args.accept_build))?;
+    answer.set("title", plan.title());
+    let end = finish(&mut study, &out, answer, interrupt, SummaryRecord::of_unit)?;
+    let mut tables = plan.tables(study.records(), end, study.builds());
     answer.warn(&tables.warnings);
-    answer.set("title", &tables.title);
-    answer.set("complete", tables.is_complete());
-    answer.set("failures", &tables.failures);
-    answer.set_files(&[&md, &json]);
     answer.say(terminal(&tables));
-    answer.say(format_args!(
-        "wrote {} and {}",
-        md.display(),
-        json.display()
-    ));
+    if tables.interrupted {
+        return tables.into_result();
+    }
+    let files = study.write_results(|folder| write(&tables, folder))?;
+    answer.set_files(&files);
+    let names: Vec<String> = files.iter().map(|file| shown(file)).collect();
+    answer.say(format_args!("wrote {}", names.join(" and ")));
+    tell_if_partial(&study, answer);
     if args.html {
-        let page = adslam_report::write(&tables, &args.out)?;
+        let known = tables.warnings.len();
+        plan.record(&mut tables, interrupt)?;
+        answer.warn(&tables.warnings[known..]);
+        let page = adslam_report::write(&tables, folder_of(&files[0]))?;
         answer.set("report", shown(&page));
         answer.say(format_args!(
             "wrote {}; open it in a browser, no network needed",
             page.display()
         ));
     }
-    if tables.interrupted && !tables.failures.is_empty() {
-        // The interruption is what the command ends with, and tells nothing of these.
-        let failures = tables.failures.clone();
-        tell(ExperimentError::Runs { failures });
-    }
     tables.into_result()
+}
+
+/// Writes the tables, and first removes a report of others.
+fn write(tables: &Tables, folder: &Path) -> Result<Vec<PathBuf>, ExperimentError> {
+    let paths = ["tables.md", "tables.json"].map(|name| folder.join(name));
+    let texts = [markdown(tables), json(tables)?];
+    if fs::read_to_string(&paths[1]).ok().as_ref() != Some(&texts[1]) {
+        adslam_report::remove(folder)?;
+    }
+    let files = paths.iter().zip(texts);
+    let files = files.map(|(path, text)| AtomicFile::with_content(path, text.as_bytes()));
+    AtomicFile::commit_all(files.collect::<Result<_, _>>()?)?;
+    Ok(paths.into())
 }

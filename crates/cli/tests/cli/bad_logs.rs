@@ -211,7 +211,7 @@ fn headers_with_missing_keys() {
 
 #[test]
 fn headers_that_say_what_cannot_be() {
-    let cases: [(&str, Value, [&str; 2]); 9] = [
+    let cases: [(&str, Value, [&str; 2]); 7] = [
         (
             "/length_unit",
             json!("inch"),
@@ -230,15 +230,9 @@ fn headers_that_say_what_cannot_be() {
             ["1000000 features", "up to 2000"],
         ),
         (
-            "/initial/feature_sigma",
-            json!(-0.1),
-            ["-0.1", "not negative"],
-        ),
-        ("/noise/rotation_sigma", json!(-1), ["-1", "not negative"]),
-        (
-            "/noise/feature_measurement_sigma",
-            json!(0),
-            ["is 0", "greater than zero"],
+            "/noise/structure_measurement_sigma",
+            json!(1e-200),
+            ["the structure measurements is 1e-200", "a number above 0"],
         ),
         (
             "/initial/pose_covariance/0/0",
@@ -261,6 +255,66 @@ fn headers_that_say_what_cannot_be() {
 }
 
 #[test]
+fn negative_sigmas_and_exact_measurements() {
+    let measurements = ["feature_measurement_sigma", "structure_measurement_sigma"];
+    let motions = [
+        "rotation_sigma",
+        "translation_sigma",
+        "feature_motion_sigma",
+    ];
+    for key in measurements {
+        for value in [-0.1, 0.0] {
+            let said = format!("has {value} in noise.{key}");
+            let pointer = format!("/noise/{key}");
+            refused_with(
+                1,
+                &pointer,
+                Some(json!(value)),
+                &[&said, "a number above 0"],
+            );
+        }
+    }
+    for key in motions {
+        let said = format!("has -0.1 in noise.{key}");
+        let pointer = format!("/noise/{key}");
+        refused_with(1, &pointer, Some(json!(-0.1)), &[&said, "0 or more"]);
+    }
+    let words = ["has -2 in initial.feature_sigma", "0 or more"];
+    refused_with(1, "/initial/feature_sigma", Some(json!(-2.0)), &words);
+}
+
+#[test]
+fn covariances_that_no_pose_has() {
+    let with = |entries: &[(usize, usize, f64)]| {
+        let mut log = log();
+        for &(i, j, value) in entries {
+            for (i, j) in [(i, j), (j, i)] {
+                log[0]["initial"]["pose_covariance"][i][j] = json!(value);
+            }
+        }
+        lines(&log)
+    };
+    let ones = [(0, 0, 1.0), (1, 1, 1.0), (2, 2, 1.0)];
+    let pair = with(&[&ones[..], &[(0, 1, 2.0)]].concat());
+    let words = [
+        "log.jsonl: line 1",
+        "has 2 between roll and pitch (entries 0 and 1)",
+        "help:",
+    ];
+    place(&pair).refuses(FILTER, &words);
+    // Each pair is right, all three together are not.
+    let three = [(0, 1, -0.6), (0, 2, -0.6), (1, 2, -0.6)];
+    let three = with(&[&ones[..], &three].concat());
+    let words = [
+        "log.jsonl: line 1",
+        "not positive semidefinite",
+        "eigenvalue -0.2",
+        "help:",
+    ];
+    place(&three).refuses(FILTER, &words);
+}
+
+#[test]
 fn unknown_keys() {
     let words = ["unknown key `contrl`", "did you mean `control`?"];
     refused_with(3, "/contrl", Some(json!(1)), &words);
@@ -269,5 +323,75 @@ fn unknown_keys() {
         text,
         "\"step\":3,\"step\":3",
         &["the key `step` is given twice", "keep one"],
+    );
+}
+
+#[test]
+fn sums_that_cannot_be() {
+    let with = |sums: Value, words: &[&str]| {
+        let mut log = log();
+        log[2]
+            .as_object_mut()
+            .unwrap()
+            .remove("structure_measurements");
+        log[2]["structure_sums"] = sums;
+        refused(&lines(&log), 3, words);
+    };
+    with(
+        json!([[0, 0, 0]]),
+        &["has 1 structure_sums", "the log has 4 features"],
+    );
+    let off = json!([[1, 0, 0], [-1, 0, 0], [0, 2, 0], [0, -1, 0]]);
+    with(
+        off,
+        &[
+            "structure_sums that add up to 1, not 0",
+            "each pair goes into two sums",
+        ],
+    );
+    with(
+        json!([[1e308, 0, 0], [1e308, 0, 0], [0, 0, 0], [0, 0, 0]]),
+        &["add up to inf"],
+    );
+    let zero = json!([[0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0]]);
+    let words = [
+        "structure_sums and structure_measurements",
+        "give one of the two",
+    ];
+    refused_with(3, "/structure_sums", Some(zero), &words);
+}
+
+#[test]
+fn truths_and_filters_that_cannot_be() {
+    let truth = json!({"pose": [0, 0, 0, 0, 0, 0], "features": [[0, 0, 0]]});
+    for line in [1, 3] {
+        let words = [
+            "true positions of 1 features, and the log has 4",
+            "truth.features",
+        ];
+        refused_with(line, "/truth", Some(truth.clone()), &words);
+    }
+    let far = json!({"pose": [0, 0, 0, 0, 0, 0], "features": [[1e300, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0]]});
+    refused_with(3, "/truth", Some(far), &["the error is not finite"]);
+    let words = [
+        "no estimator is called \"so3_efk\"",
+        "did you mean so3_ekf?",
+        "--estimator",
+    ];
+    refused_with(1, "/filter", Some(json!({"estimator": "so3_efk"})), &words);
+    for probability in [0.0, 1.0, -2.0] {
+        let filter = json!({"gate_probability": probability});
+        refused_with(
+            1,
+            "/filter",
+            Some(filter),
+            &["gate probability", "above 0 and below 1"],
+        );
+    }
+    refused_with(
+        1,
+        "/filter",
+        Some(json!({"gate": 0.9})),
+        &["unknown key `gate`"],
     );
 }

@@ -110,9 +110,9 @@ fn not_a_mesh() {
         "Dear diary, today I learned to deform.\n",
     )
     .unwrap();
-    refused(&place, &["this is not STL", "export the mesh again"]);
+    refused(&place, &["cannot be read as STL", "export the mesh again"]);
     fs::write(place.path("mesh.stl"), "solid t\nfacet normal 0 0 here\n").unwrap();
-    refused(&place, &["this is not STL", "export the mesh again"]);
+    refused(&place, &["cannot be read as STL", "export the mesh again"]);
 }
 
 #[test]

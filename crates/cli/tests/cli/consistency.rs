@@ -96,11 +96,26 @@ fn it_goes_on_where_it_was_stopped_and_ends_the_same() {
         // The one number that differs is how long decisions took, which no table holds.
         assert_eq!(whole, resumed, "{table}");
     }
-    let words = ["out", "another", "estimator"];
+    let words = [
+        "holds another study",
+        "`filter.estimator` is \"so3_ekf\" there and \"euler_ekf\" here",
+    ];
     place.refuses(
         "consistency config.toml --estimator euler_ekf --out out",
         &words,
     );
+    // Another estimator beside it, and more runs, are growth.
+    let both = "--estimator euler_ekf --estimator so3_ekf --runs 3";
+    let said = place.succeeds(&format!("consistency config.toml {both} --out out"));
+    assert!(
+        said.out.contains("4 of 12 runs were there already"),
+        "{said:?}"
+    );
+    place.succeeds(&format!("consistency config.toml {both} --out whole-too"));
+    for table in TABLES {
+        let [grown, whole] = ["out", "whole-too"].map(|out| place.read(&format!("{out}/{table}")));
+        assert_eq!(grown, whole, "{table}");
+    }
 }
 
 #[test]
@@ -144,10 +159,10 @@ fn runs_that_fail_leave_their_cell_empty() {
     ] {
         assert!(said.err.contains(word), "{said:?}");
     }
-    let text = place.read("out/consistency.md");
+    let text = place.read("out/partial/consistency.md");
     assert!(text.contains("Incomplete: 3 runs failed"), "{text}");
     assert!(!text.contains("NaN"), "{text}");
-    let cells = place.json("out/consistency.json")["cells"].clone();
+    let cells = place.json("out/partial/consistency.json")["cells"].clone();
     assert_eq!(
         (&cells[0]["runs"], &cells[3]["runs"]),
         (&1.into(), &0.into())

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::failures::breaking;
 use super::support::{Place, lines, log_header, log_step, polygon};
-use super::sweep::sweep;
+use super::sweep::{records, sweep, wait_for_records};
 use super::tables::config;
 
 const INTERRUPTED: i32 = 130;
@@ -64,27 +64,30 @@ fn stop(child: Child, signal: &str) -> String {
     said
 }
 
+/// What is finished is kept and shown; complete tables that were there stay.
 #[test]
 fn tables_keep_the_finished_runs() {
     let place = Place::new(&[
         ("polygon.toml", &polygon(&[])),
-        ("config.toml", &config(100_000, &["predetermined"])),
+        ("config.toml", &config(2, &["predetermined"])),
     ]);
-    let child = start(&place, "tables config.toml --out tables", "tables");
-    sleep(Duration::from_millis(500));
+    place.succeeds("tables config.toml --out tables");
+    let before = ["tables.md", "tables.json"].map(|name| place.read(&format!("tables/{name}")));
+    let many = "tables config.toml --runs 100000 --out tables";
+    let child = start(&place, many, "tables");
+    wait_for_records(&place, "tables", 10);
     let said = interrupt(child);
     assert!(said.contains("interrupted"), "{said}");
-    let json = place.json("tables/tables.json");
-    assert_eq!(json["complete"], false);
-    let runs = &json["scenarios"]["polygon"]["planners"]["predetermined"];
-    let finished = runs.as_array().unwrap().len();
-    assert!((1..100_000).contains(&finished), "{finished}");
-    assert!(place.read("tables/tables.md").contains("Incomplete"));
-    assert_eq!(
-        fs::read_dir(place.path("tables")).unwrap().count(),
-        2,
-        "no litter"
-    );
+    let kept = records(&place, "tables").len();
+    assert!((10..100_000).contains(&kept), "{kept}");
+    let words = format!("{kept} of 100000 runs are kept in tables");
+    assert!(said.contains(&words), "{said}");
+    let after = ["tables.md", "tables.json"].map(|name| place.read(&format!("tables/{name}")));
+    assert_eq!(after, before);
+    let there = fs::read_dir(place.path("tables")).unwrap().count();
+    assert_eq!(there, 5, "tables, plan, records and lock, no litter");
+    let some = format!("tables config.toml --runs {} --out tables", kept + 1);
+    place.refuses(&some, &["seeds 1–100000 there"]);
 }
 
 /// Whatever failed before: the user's wish is what the command ends with.
@@ -105,7 +108,7 @@ fn an_interruption_is_one_though_runs_have_failed() {
         assert!(said.contains(word), "{said}");
     }
     assert!(said.lines().count() < 40, "{said}");
-    assert_eq!(place.json("tables/tables.json")["complete"], false);
+    assert!(!place.path("tables/tables.json").exists());
 }
 
 /// Every command that does long work, by every signal.

@@ -13,10 +13,13 @@ mod bad_scenarios;
 mod bad_tables;
 mod check;
 mod consistency;
+mod documents;
 mod evo;
 mod export;
 mod failures;
 mod filter;
+mod filter_sources;
+mod filter_truth;
 mod help;
 #[cfg(unix)]
 mod interrupt;
@@ -24,6 +27,7 @@ mod json;
 #[cfg(unix)]
 mod killed;
 mod mesh;
+mod mesh_cases;
 mod new;
 mod replay;
 mod run;
@@ -36,3 +40,4 @@ mod support;
 mod sweep;
 mod sweep_folder;
 mod tables;
+mod warnings;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::support::{PLANNERS, Place, RUN_KEYS, STEPS, polygon};
 
 /// Columns without a unit.
-const COUNTS: [&str; 16] = [
+const COUNTS: [&str; 18] = [
     "step",
     "pose_nees",
     "feature_nees",
@@ -22,6 +22,8 @@ const COUNTS: [&str; 16] = [
     "safe_actions",
     "scored_actions",
     "compromised",
+    "limits_waived",
+    "abandoned_goal_number",
 ];
 
 fn has_unit(column: &str) -> bool {
@@ -179,7 +181,8 @@ fn a_world_in_which_nothing_is_seen_is_warned_of() {
     let place = Place::new(&[("blind.toml", &blind)]);
     let said = place.succeeds("run blind.toml --planner predetermined --out run");
     assert!(
-        said.err.contains("warning: the robot saw no feature"),
+        said.err
+            .contains("warning: polygon, predetermined: the robot saw no feature"),
         "{said:?}"
     );
     assert!(said.out.contains("observed 0 feature times"), "{said:?}");

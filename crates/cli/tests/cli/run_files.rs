@@ -52,7 +52,7 @@ fn every_file_column_and_key_is_documented() {
         for (world, expected) in [("good", &of_good), ("faulty", &of_faulty)] {
             let out = format!("{world}/{planner}");
             place.succeeds(&format!(
-                "run {world}.toml --planner {planner} --seed 2 --out {out} --html"
+                "run {world}.toml --planner {planner} --seed 2 --out {out} --html --log"
             ));
             assert_eq!(keys(&place.json(&format!("{out}/summary.json"))), *expected);
             for table in ["steps.csv", "pose_covariance.csv", "features.csv"] {

@@ -114,7 +114,10 @@ fn the_scenario_of_a_run_gives_the_run_again() {
     let placed = [
         ("features = 50", "features = 12"),
         ("unit = \"mm\"", "unit = \"cm\""),
-        ("offset_cm = [5.0, 18.0, 110.0]", "rotation_deg = [0.0, 0.0, 5.0]"),
+        (
+            "offset_cm = [5.0, 18.0, 110.0]",
+            "rotation_deg = [0.0, 0.0, 5.0]",
+        ),
     ];
     fs::write(place.path("heart.toml"), heart(&placed)).unwrap();
     place.succeeds("run heart.toml --planner predetermined --out heart");
@@ -234,7 +237,10 @@ fn a_folder_with_anything_else_is_refused() {
     fs::remove_file(place.path("run/notes.md")).unwrap();
     fs::write(place.path("run/.DS_Store"), "").unwrap();
     place.succeeds(&format!("{RUN} run"));
-    let holds = ["run holds a run", "give another folder with --out"];
+    let holds = [
+        "run holds results of something else: run.json",
+        "give another folder with --out",
+    ];
     place.refuses("sweep sweep.toml --out run", &holds);
 }
 

@@ -170,10 +170,59 @@ fn runs_that_fail_are_told_and_tried_again() {
     }
     assert!(
         place
-            .read("out/table.md")
+            .read("out/partial/table.md")
             .contains("**Incomplete: 8 runs failed.**")
     );
-    assert!(place.read("out/table.csv").contains("\n1,,2.0,local,0,2"));
+    assert!(
+        place
+            .read("out/partial/table.csv")
+            .contains("\n1,,2.0,local,0,2")
+    );
+}
+
+/// More runs, points and planners: only what is missing is done, and the tables are those of the whole.
+#[test]
+fn a_sweep_grows() {
+    let place = place(2);
+    place.succeeds("sweep sweep.toml --out out");
+    let grown = sweep(3)
+        .replace("[2.0, 3.0]", "[2.0, 2.5, 3.0]")
+        .replace("\"local\"]", "\"local\", \"global\"]");
+    fs::write(place.path("grown.toml"), grown).unwrap();
+    let said = place.succeeds("sweep grown.toml --out out");
+    assert!(
+        said.out.starts_with("8 of 27 runs were there already"),
+        "{said:?}"
+    );
+    place.succeeds("sweep grown.toml --out whole");
+    assert_eq!(tables(&place, "out"), tables(&place, "whole"));
+    let said = place.refuses(
+        "sweep sweep.toml --out out",
+        &["seeds 1–3 there and 1–2 here"],
+    );
+    assert!(
+        said.err
+            .contains("planners predetermined, local, global there")
+    );
+    assert!(said.err.contains("the point with `sensor.range_cm` = 2.5"));
+}
+
+/// Tables of a part of the runs lie apart, and go when the whole is there.
+#[test]
+fn tables_that_lack_runs_replace_none_that_do_not() {
+    let place = place(2);
+    place.succeeds("sweep sweep.toml --out out");
+    let before = tables(&place, "out");
+    let worse = "[[points]]\nset = { \"filter.rotation_sigma_rad\" = 3.0, \
+        \"filter.translation_sigma_cm\" = 1e6, \"filter.feature_measurement_sigma_cm\" = 1e-9, \
+        \"filter.structure_measurement_sigma_cm\" = 1e-9 }\n";
+    fs::write(place.path("worse.toml"), sweep(2) + worse).unwrap();
+    let said = place.adslam("sweep worse.toml --out out");
+    assert_eq!(said.code, Some(FAILURE), "{said:?}");
+    assert!(said.out.contains("so they lie apart"), "{said:?}");
+    assert_eq!(tables(&place, "out"), before);
+    let partial = place.read("out/partial/table.md");
+    assert!(partial.contains("**Incomplete: "), "{partial}");
 }
 
 #[test]

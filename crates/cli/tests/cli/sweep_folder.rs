@@ -4,8 +4,11 @@ use std::fs;
 #[cfg(unix)]
 use std::process::Command;
 
+use adslam_experiment::provenance::BUILD;
+
 #[cfg(unix)]
 use super::support::FAILURE;
+use super::support::Place;
 #[cfg(unix)]
 use super::sweep::written;
 use super::sweep::{place, records, start, sweep, tables, wait_for_records};
@@ -16,24 +19,22 @@ fn another_sweep_is_refused_by_what_differs() {
     let place = place(1);
     place.succeeds("sweep sweep.toml --out out");
     let help = "give another folder with --out";
-    let words = ["holds another study: `units` is 4 there and 8 here", help];
-    place.refuses("sweep sweep.toml --out out --runs 2", &words);
     let text = sweep(1);
     for (old, new, difference) in [
         (
             "3.0]",
             "4.0]",
-            "`points[1].set.sensor.range_cm` is 3.0 there and 4.0 here",
+            "holds another study: `sensor.range_cm` is 3.0 there and 4.0 here",
         ),
         (
             "\"local\"",
             "\"global\"",
-            "`planners[1]` is \"local\" there and \"global\" here",
+            "planners predetermined, local there and predetermined, global here",
         ),
         (
             "[grid]",
             "first_seed = 2\n[grid]",
-            "`first_seed` is 1 there and 2 here",
+            "seeds 1 there and 2 here",
         ),
     ] {
         fs::write(place.path("other.toml"), text.replace(old, new)).unwrap();
@@ -43,6 +44,38 @@ fn another_sweep_is_refused_by_what_differs() {
     fs::write(place.path("other.toml"), text.replace("A few", "Some")).unwrap();
     place.succeeds("sweep other.toml --out out");
     assert!(place.read("out/table.md").starts_with("# Some runs"));
+}
+
+/// The records and the plan of a folder, as if another build had made them.
+pub fn by_another_build(place: &Place, out: &str) {
+    let mut files = vec![place.path(out).join("plan.json")];
+    let names = records(place, out).into_iter();
+    files.extend(names.map(|name| place.path(out).join("records").join(name)));
+    for file in files {
+        let text = fs::read_to_string(&file).unwrap();
+        let other = text.replace(BUILD, "1a2b3c4d");
+        assert_ne!(other, text);
+        fs::write(&file, other).unwrap();
+    }
+}
+
+#[test]
+fn another_build_goes_on_only_where_the_user_accepts_it() {
+    let place = place(1);
+    place.succeeds("sweep sweep.toml --out out");
+    by_another_build(&place, "out");
+    let differs = format!("the build is 1a2b3c4d there and {BUILD} here");
+    let words = [&*differs, "--accept-build", "--out"];
+    place.refuses("sweep sweep.toml --out out --runs 2", &words);
+    let said = place.succeeds("sweep sweep.toml --out out --runs 2 --accept-build");
+    assert!(said.out.starts_with("4 of 8 runs were there"), "{said:?}");
+    for told in [said.err, place.read("out/table.md")] {
+        for part in ["by another build", "4 by adslam", "build 1a2b3c4d", BUILD] {
+            assert!(told.contains(part), "no {part:?} in {told}");
+        }
+    }
+    // As it was accepted once.
+    place.succeeds("sweep sweep.toml --out out --runs 2");
 }
 
 #[test]

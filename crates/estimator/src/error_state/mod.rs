@@ -20,6 +20,8 @@ pub use euler::EulerError;
 pub use right_invariant::RightInvariantError;
 pub use so3::So3Error;
 
+use crate::EstimatorError;
+
 /// The error coordinates of an estimator. Vectors δ and errors are in the order of the state, radians and cm,
 /// in the paper's coordinates: the δ that is T(χ̂)⁻¹ τ.
 pub trait ErrorState: Clone + std::fmt::Debug + Send + 'static {
@@ -29,6 +31,9 @@ pub trait ErrorState: Clone + std::fmt::Debug + Send + 'static {
     /// The δ with `truth` = `estimate` ⊞ δ: the error of which the belief's covariance is that.
     #[must_use]
     fn error(estimate: &State, truth: &State) -> Vec<f64>;
+
+    /// Whether T turns angles into a rotation, which near pitch ±90° loses digits: false where T = I.
+    const CONVERTS_ANGLES: bool;
 
     /// D − I when the estimate moved from `before` to `after`. Only its columns of Θ are not zero: a block
     /// of 3 × 3 each for the rows of Θ, of x, and of each feature. Left empty where D = I.
@@ -46,6 +51,31 @@ fn inverse_axes(orientation: EulerAngles) -> Matrix3<f64> {
         .rotation_axes()
         .try_inverse()
         .unwrap_or_else(|| Matrix3::repeat(f64::NAN))
+}
+
+/// What converting a covariance may change of it at most.
+const LARGEST_LOSS: f64 = 1e-6;
+
+/// Refuses orientations between which a covariance in angles cannot be carried over with six right digits.
+///
+/// P = W₀⁻¹ R W₀⁻ᵀ of a covariance R of rotations becomes D P Dᵀ, D = W₁⁻¹ W₀. Its rounding errors, ε |D|² |P|,
+/// count in rotations at `after`: relative to R that is at most ε (|W₁| |D| |W₀⁻¹|)², with Frobenius norms. Where little
+/// is corrected D is I, and that is 18 ε/cos²(pitch).
+pub(crate) fn check_conversion(
+    before: EulerAngles,
+    after: EulerAngles,
+) -> Result<(), EstimatorError> {
+    let (from, to) = (before.rotation_axes(), after.rotation_axes());
+    let reset = inverse_axes(after) * from;
+    let condition = to.norm() * reset.norm() * inverse_axes(before).norm();
+    let loss = f64::EPSILON * condition * condition;
+    if loss <= LARGEST_LOSS {
+        return Ok(());
+    }
+    Err(EstimatorError::PitchNearRightAngle {
+        pitch_deg: after.pitch.to_degrees(),
+        loss,
+    })
 }
 
 /// The rotation from the estimate to the truth, in the world.

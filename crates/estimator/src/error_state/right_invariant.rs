@@ -22,6 +22,8 @@ pub struct RightInvariantError;
 // The exponential leads to exp(θ) p̂ + J(θ) ξ. With ξ = δ + p̂ × θ and J(θ) [θ]× = exp(θ) − 1 that is
 // p̂ + J(θ) δ, wherever the origin is.
 impl ErrorState for RightInvariantError {
+    const CONVERTS_ANGLES: bool = true;
+
     fn retract(state: &mut State, delta: &[f64]) {
         let theta = state.pose.orientation.rotation_axes() * angles_in(delta);
         let jacobian = lie::left_jacobian(&theta);

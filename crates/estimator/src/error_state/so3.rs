@@ -14,6 +14,8 @@ use super::{
 pub struct So3Error;
 
 impl ErrorState for So3Error {
+    const CONVERTS_ANGLES: bool = true;
+
     fn retract(state: &mut State, delta: &[f64]) {
         for (p, part) in positions_with(state, delta) {
             *p += part;

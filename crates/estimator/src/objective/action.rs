@@ -33,8 +33,9 @@ pub(super) struct ActionTerms {
 }
 
 impl ActionTerms {
-    /// The trace of the covariance after the action with this set; nothing if that has broken down.
-    pub(super) fn trace(&self, set: &VisibleSet) -> Option<f64> {
+    /// The trace of the covariance after the action with this set, and the largest information that the set has
+    /// of one of the unknowns; nothing if that has broken down.
+    pub(super) fn trace(&self, set: &VisibleSet) -> Option<(f64, f64)> {
         Arch::new().dispatch(Trace { action: self, set })
     }
 }
@@ -45,15 +46,17 @@ struct Trace<'a> {
 }
 
 impl WithSimd for Trace<'_> {
-    type Output = Option<f64>;
+    type Output = Option<(f64, f64)>;
 
     /// Plain loops: compiled here, they use the vectors that the machine has, and give the same
     /// numbers on any.
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Option<f64> {
+    fn with_simd<S: Simd>(self, _: S) -> Option<(f64, f64)> {
         let mut information = congruence(&self.set.k.data.0, self.action, 0.0);
+        let mut largest = 0.0_f64;
         for (i, row) in information.iter_mut().enumerate() {
             row[i] += 1.0;
+            largest = largest.max(row[i]);
         }
         let weight = congruence(&self.set.n.data.0, self.action, 1.0);
         let inverse = inverse(information)?;
@@ -67,7 +70,7 @@ impl WithSimd for Trace<'_> {
                 trace += product;
             }
         }
-        Some(trace)
+        Some((trace, largest))
     }
 }
 

@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::prior::DecisionPrior;
 use crate::ekf::check_feature;
 use crate::feature_update::{Sighting, condition_on_features};
+use crate::noise::{Zero, check_sigma};
 use crate::workspace::Workspace;
 use crate::{Belief, Covariance, EstimatorError, FilterNoise, Parallelism};
 
@@ -21,12 +22,15 @@ pub struct PlannedMeasurement {
 
 impl PlannedMeasurement {
     /// With the same `sigma`, cm, on each axis.
-    #[must_use]
-    pub fn isotropic(feature: FeatureId, sigma: f64) -> Self {
-        Self {
+    ///
+    /// # Errors
+    /// [`EstimatorError::BadSigma`] if it is not above 0.
+    pub fn isotropic(feature: FeatureId, sigma: f64) -> Result<Self, EstimatorError> {
+        check_sigma("a planned measurement", sigma, Zero::Refused)?;
+        Ok(Self {
             feature,
             covariance: Matrix3::identity() * (sigma * sigma),
-        }
+        })
     }
 }
 

@@ -10,6 +10,7 @@ use super::group::{SharedBlocks, VisibleSet};
 use super::pose_factor::semidefinite_root;
 use super::prior::DecisionPrior;
 use super::workspace::SetWorkspace;
+use crate::digits::check_gain;
 use crate::ekf::check_feature;
 use crate::workspace::Workspace;
 use crate::{Belief, EstimatorError, FilterNoise};
@@ -141,7 +142,7 @@ impl PosteriorTrace {
     ///
     /// # Errors
     /// No decision prepared, a feature that was not announced, or an innovation covariance that is
-    /// not positive definite.
+    /// not positive definite or has fewer than six right digits.
     pub fn add_set(&mut self, visible: &[FeatureId]) -> Result<SetId, EstimatorError> {
         self.prior.noise()?;
         self.sets.push(self.shared.set(visible, &mut self.of_set)?);
@@ -167,7 +168,8 @@ impl PosteriorTrace {
     /// a lower bound.
     ///
     /// # Errors
-    /// No decision prepared, a set of an earlier decision, or a covariance that has broken down.
+    /// No decision prepared, a set of an earlier decision, a covariance that has broken down, or measurements
+    /// so precise that fewer than six digits of the trace are right.
     pub fn after(&self, control: &Control, set: SetId) -> Result<f64, EstimatorError> {
         let noise = self.prior.noise()?;
         let set = self
@@ -184,12 +186,17 @@ impl PosteriorTrace {
             moved_root: rows(&(motion_jacobian(&self.prior.pose, control) * self.root)),
             noise: noise_root(noise),
         };
-        action
-            .trace(set)
-            .ok_or(EstimatorError::NotPositiveDefinite {
-                matrix: "information of the planned measurements",
-                dim: 12,
-            })
+        let (trace, information) =
+            action
+                .trace(set)
+                .ok_or(EstimatorError::NotPositiveDefinite {
+                    matrix: "information of the planned measurements",
+                    dim: 12,
+                })?;
+        check_gain(information, 12)?;
+        let digits = set.magnitude / trace.max(f64::MIN_POSITIVE);
+        check_gain(digits, self.prior.covariance.dim())?;
+        Ok(trace)
     }
 }
 

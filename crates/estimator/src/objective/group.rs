@@ -23,6 +23,7 @@ use nalgebra::{Matrix6, SMatrix};
 use super::pose_factor::set_cross_factor;
 use super::workspace::SetWorkspace;
 use crate::buffer::Buffer;
+use crate::digits::check_gain;
 use crate::ekf::check_feature;
 use crate::linear_algebra::{add_product, set_gram, set_product};
 use crate::{Covariance, EstimatorError, Parallelism};
@@ -39,6 +40,8 @@ pub(super) struct VisibleSet {
     pub(super) n: Matrix12,
     /// tr P̂ − tr(B⁻¹ `(P̂²)_SS`).
     pub(super) constant: f64,
+    /// How large the terms are that the trace is summed from.
+    pub(super) magnitude: f64,
 }
 
 /// What all sets of a decision share, over the features that any of them sees, in memory that is kept.
@@ -64,6 +67,10 @@ pub(super) struct SharedBlocks {
     jj: Matrix6<f64>,
     /// tr P̂.
     trace: f64,
+    /// How large the terms of tr P̂ are.
+    magnitude: f64,
+    /// What B's diagonal is computed from, `P_VV` + σ² I.
+    scale: Vec<f64>,
 }
 
 impl SharedBlocks {
@@ -132,6 +139,14 @@ impl SharedBlocks {
             .map(|i| covariance.entry(i, i))
             .sum();
         self.trace = variances - self.jj.trace();
+        self.magnitude = variances + self.jj.trace();
+        self.scale.clear();
+        self.scale.reserve(all);
+        for &feature in seen {
+            let variances = covariance.feature(feature).diagonal();
+            let scale = variances.iter().map(|v| v + measurement_variance);
+            self.scale.extend(scale);
+        }
     }
 
     /// The place of a feature among those seen.
@@ -143,7 +158,7 @@ impl SharedBlocks {
     /// The constants of the set `visible`, a part of the features seen.
     ///
     /// # Errors
-    /// An unknown feature, or B not positive definite.
+    /// An unknown feature, B not positive definite, or with less than six right digits.
     pub(super) fn set(
         &self,
         visible: &[FeatureId],
@@ -156,10 +171,13 @@ impl SharedBlocks {
                 k: Matrix12::zeros(),
                 n,
                 constant: self.trace,
+                magnitude: self.magnitude,
             });
         }
         work.gather(self, visible)?;
         work.factorise()?;
+        work.invert();
+        check_gain(work.condition(&self.scale), self.columns.nrows())?;
         // K = (L⁻¹U)ᵀ(L⁻¹U), X = B⁻¹U.
         let k = work.gram_of_whitened();
         work.finish_solve();
@@ -176,6 +194,7 @@ impl SharedBlocks {
             k,
             n,
             constant: self.trace - work.trace_of_inverse_times_squared(),
+            magnitude: self.magnitude + work.magnitude_of_inverse_times_squared(),
         })
     }
 }

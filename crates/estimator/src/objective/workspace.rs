@@ -113,8 +113,8 @@ impl SetWorkspace {
         SMatrix::from_fn(|i, j| self.small[(i, j)])
     }
 
-    /// tr(B⁻¹P̂²).
-    pub(super) fn trace_of_inverse_times_squared(&mut self) -> f64 {
+    /// B⁻¹, its lower triangle, from the factor.
+    pub(super) fn invert(&mut self) {
         invert_lower_triangular(self.inverse_factor.as_mut(), self.b.as_ref(), Par::Seq);
         triangular::matmul(
             self.inverse.as_mut(),
@@ -127,6 +127,29 @@ impl SetWorkspace {
             1.0,
             Par::Seq,
         );
+    }
+
+    /// maxₖ `D_k` `(B⁻¹)_kk` over the set's rows, with D given for all features seen: how far rounding errors of D ε
+    /// in B reach.
+    pub(super) fn condition(&self, scale: &[f64]) -> f64 {
+        let of_feature = |(at, &place): (usize, &usize)| {
+            let rows = (0..3).map(|axis| (3 * at + axis, scale[place + axis]));
+            rows.map(|(row, scale)| scale * self.inverse[(row, row)])
+                .fold(0.0, f64::max)
+        };
+        let features = self.places.iter().enumerate();
+        features.map(of_feature).fold(0.0, f64::max)
+    }
+
+    /// Σₖ `(B⁻¹)_kk` `(P̂²)_kk`: what tr(B⁻¹P̂²) is summed from.
+    pub(super) fn magnitude_of_inverse_times_squared(&self) -> f64 {
+        (0..self.inverse.ncols())
+            .map(|k| self.inverse[(k, k)] * self.squared[(k, k)])
+            .sum()
+    }
+
+    /// tr(B⁻¹P̂²), after [`Self::invert`].
+    pub(super) fn trace_of_inverse_times_squared(&self) -> f64 {
         (0..self.inverse.ncols())
             .map(|j| {
                 let inverse = &self.inverse.col_as_slice(j)[j..];

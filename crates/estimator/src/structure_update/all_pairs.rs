@@ -11,6 +11,8 @@ use std::ops::Range;
 use adslam_models::POSE_DIM;
 use nalgebra::{Matrix3, Vector3};
 
+use super::STRUCTURE;
+use crate::digits::Stages;
 use crate::workspace::{Workspace, add_scaled, blocks};
 use crate::{Covariance, EstimatorError, Parallelism};
 
@@ -57,19 +59,29 @@ pub(crate) fn condition_on_all_pairs(
         return Ok(());
     }
     let reflection = Reflection::new(count);
-    sum_columns(covariance, &reflection, workspace, parallelism);
-    for block in blocks(1..count, dim) {
-        workspace.start_block(3 * block.len());
-        let columns = workspace.products.as_mut();
-        covariance.copy_columns(POSE_DIM + 3 * block.start, columns, parallelism);
-        lay_out(&reflection, block, residual, sigma, workspace);
-        workspace.condition(
-            covariance,
-            "innovation covariance of the structure measurements",
-            parallelism,
-        )?;
+    let mut stages = Stages::new(STRUCTURE, dim);
+    while let Some(weight) = stages.next(gain(covariance, sigma))? {
+        sum_columns(covariance, &reflection, workspace, parallelism);
+        for block in blocks(1..count, dim) {
+            workspace.start_block(3 * block.len());
+            let columns = workspace.products.as_mut();
+            covariance.copy_columns(POSE_DIM + 3 * block.start, columns, parallelism);
+            let variance = sigma * sigma / weight;
+            lay_out(&reflection, block, residual, variance, workspace);
+            workspace.condition(
+                covariance,
+                "innovation covariance of the structure measurements",
+                parallelism,
+            )?;
+        }
     }
     Ok(())
+}
+
+/// How many times smaller all pairs can make a variance: each contrast is known with σ²/M.
+fn gain(covariance: &Covariance, sigma: f64) -> f64 {
+    let count = covariance.feature_count();
+    count as f64 * covariance.largest_feature_variance(0..count) / (sigma * sigma)
 }
 
 /// G = P(u ⊗ I₃), into the carried vectors after the first.
@@ -97,7 +109,7 @@ fn lay_out(
     reflection: &Reflection,
     block: Range<usize>,
     residual: &[Vector3<f64>],
-    sigma: f64,
+    variance: f64,
     workspace: &mut Workspace,
 ) {
     let kappa = reflection.kappa;
@@ -108,7 +120,7 @@ fn lay_out(
     });
     let gram = Matrix3::from_columns(&gram);
     let residual_along_u = reflection.along_u(residual.iter().copied());
-    let variance = sigma * sigma / reflection.count;
+    let variance = variance / reflection.count;
     for column in 0..rows {
         let axis = column % 3;
         let sums = workspace.carried.col_as_slice(1 + axis);

@@ -17,6 +17,9 @@ use crate::{Belief, EstimatorError, Nis, Parallelism};
 pub(crate) use all_pairs::condition_on_all_pairs;
 use graph::PairGraph;
 
+/// What is measured here, in errors.
+const STRUCTURE: &str = "structure measurements";
+
 /// One measured relative position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairMeasurement {
@@ -74,7 +77,7 @@ impl StructureUpdate {
             StructureMeasurements::Pairs(pairs) => {
                 check_pairs(pairs, count)?;
                 set_pair_residual(residual, features, pairs);
-                self.graph.read(pairs, count)?
+                self.graph.read(pairs, count)
             }
         };
         let (covariance, residual) = (&mut belief.covariance, &self.residual);

@@ -39,7 +39,7 @@ fn positions(state: &State) -> impl Iterator<Item = (usize, Vector3<f64>)> {
 
 impl Textbook {
     /// T(χ̂), τ = T δ.
-    fn t(self, state: &State) -> DMatrix<f64> {
+    pub fn transformation(self, state: &State) -> DMatrix<f64> {
         let mut t = DMatrix::identity(state.dim(), state.dim());
         let axes = state.pose.orientation.rotation_axes();
         if self != EULER {
@@ -54,12 +54,15 @@ impl Textbook {
     }
 
     pub fn covariance_from_paper(self, state: &State, p: &DMatrix<f64>) -> DMatrix<f64> {
-        let t = self.t(state);
+        let t = self.transformation(state);
         &t * p * t.transpose()
     }
 
     pub fn covariance_to_paper(self, state: &State, p: &DMatrix<f64>) -> DMatrix<f64> {
-        let t = self.t(state).try_inverse().expect("pitch is off ±π/2");
+        let t = self
+            .transformation(state)
+            .try_inverse()
+            .expect("pitch is off ±π/2");
         &t * p * t.transpose()
     }
 

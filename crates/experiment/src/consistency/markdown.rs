@@ -5,6 +5,7 @@ use std::fmt::Write;
 use comfy_table::{Cell, CellAlignment, Table, presets};
 
 use super::{CHI_SQUARED_CONFIDENCE, ConsistencyCell, ConsistencyResults, Judgement, Measure};
+use crate::provenance::remark;
 
 /// The results as Markdown.
 pub(super) fn markdown(results: &ConsistencyResults) -> String {
@@ -25,6 +26,9 @@ pub(super) fn markdown(results: &ConsistencyResults) -> String {
         results.first_seed,
         CHI_SQUARED_CONFIDENCE * 100.0,
     );
+    if let Some(remark) = remark(&results.builds) {
+        let _ = writeln!(text, "{remark}\n");
+    }
     for label in results.labels() {
         let cells = results.cells.iter().filter(|cell| cell.label == label);
         let cells: Vec<&ConsistencyCell> = cells.collect();

@@ -2,16 +2,13 @@
 
 use std::path::Path;
 
-use serde_json::{Value, json};
-
 use super::ConsistencyRecord;
 use crate::ExperimentError;
 use crate::config::{Config, ExperimentPlan, Selection};
 use crate::diagnostics::InputError;
 use crate::run::{Interrupt, Setup, simulate};
-use crate::scenario::{EstimatorName, Named, PlannerName};
-use crate::study::points;
-use crate::study::{Study, StudyPlan, StudyUnit};
+use crate::scenario::{EstimatorName, PlannerName};
+use crate::study::{OtherBuilds, Study, StudyPlan, StudyPoint, StudyUnit, points};
 
 /// Every planner of every experiment with each of the estimators.
 #[derive(Debug)]
@@ -62,10 +59,7 @@ impl ConsistencyPlan {
             points.extend(each_once.iter().map(|&estimator| Point {
                 plan: plan.clone(),
                 estimator,
-                setup: Setup {
-                    estimator: estimator.into(),
-                    ..setup.clone()
-                },
+                setup: with_estimator(&setup, estimator),
             }));
         }
         Ok(Self {
@@ -89,18 +83,24 @@ impl ConsistencyPlan {
     }
 
     /// Every point with its planners.
-    fn points(&self) -> impl Iterator<Item = points::Point<'_>> + Clone {
-        self.points
-            .iter()
-            .map(|point| (&point.setup, point.plan.planners.as_slice()))
+    fn points(&self) -> impl Iterator<Item = StudyPoint<'_>> + Clone {
+        self.points.iter().map(|point| StudyPoint {
+            setup: &point.setup,
+            planners: &point.plan.planners,
+            label: None,
+        })
     }
 
-    /// Begins the study in `folder`, or goes on with it.
+    /// Begins the study in `folder`, goes on with it, or lets it grow.
     ///
     /// # Errors
     /// As [`Study::open`].
-    pub fn open(&self, folder: &Path) -> Result<Study<'_, ConsistencyRecord>, ExperimentError> {
-        Study::open(folder, self.study())
+    pub fn open(
+        &self,
+        folder: &Path,
+        other_builds: OtherBuilds,
+    ) -> Result<Study<'_, ConsistencyRecord>, ExperimentError> {
+        Study::open(folder, &self.study(), other_builds)
     }
 
     /// Does one run: the work of the study.
@@ -127,31 +127,19 @@ impl ConsistencyPlan {
     }
 
     fn study(&self) -> StudyPlan<'_> {
-        let points: Vec<Value> = self.points.iter().map(Point::identity).collect();
-        let identity = [
-            ("runs", json!(self.runs)),
-            ("first_seed", json!(self.first_seed)),
-            ("experiments", json!(points)),
-        ];
         StudyPlan {
-            kind: "consistency",
-            identity: identity
-                .map(|(name, value)| (name.to_owned(), value))
-                .into_iter()
-                .collect(),
-            units: points::units(self.points(), self.first_seed, self.runs),
+            kind: "consistency study",
+            points: self.points().collect(),
+            first_seed: self.first_seed,
+            runs: self.runs,
         }
     }
 }
 
-impl Point {
-    fn identity(&self) -> Value {
-        let planners = self.plan.planners.iter().map(|planner| planner.as_str());
-        json!({
-            "estimator": self.estimator,
-            "planners": planners.collect::<Vec<_>>(),
-            "scenario": self.plan.scenario.keys(),
-            "object_crc32": self.setup.object_checksum(),
-        })
-    }
+/// The same with another estimator.
+fn with_estimator(setup: &Setup, estimator: EstimatorName) -> Setup {
+    let mut setup = setup.clone();
+    setup.estimator = estimator.into();
+    setup.scenario.filter.estimator = estimator;
+    setup
 }

@@ -10,8 +10,9 @@ use super::{ConsistencyPlan, ConsistencyRecord, Judgement, Measure, markdown};
 use crate::ExperimentError;
 use crate::metrics::RunSummary;
 use crate::output::{AtomicFile, Column, ColumnKind, TableFile};
+use crate::provenance::BuildRuns;
+use crate::run::warnings::merged;
 use crate::scenario::{EstimatorName, Named, PlannerName};
-use crate::study::points::distinct;
 
 /// What a consistency study gave: made of its records alone.
 #[derive(Clone, Debug, Serialize)]
@@ -26,6 +27,8 @@ pub struct ConsistencyResults {
     pub cells: Vec<ConsistencyCell>,
     /// What the user should know of the runs.
     pub warnings: Vec<String>,
+    /// What made them.
+    pub builds: Vec<BuildRuns>,
 }
 
 /// The runs of one experiment, estimator and planner.
@@ -110,9 +113,15 @@ impl ConsistencyCell {
 }
 
 impl ConsistencyResults {
-    /// Of the records of a plan's study, in its order.
+    /// Of the records of a plan's study, in its order, and what made them, as [`Study::builds`] says.
+    ///
+    /// [`Study::builds`]: crate::study::Study::builds
     #[must_use]
-    pub fn new(plan: &ConsistencyPlan, records: &[Option<ConsistencyRecord>]) -> Self {
+    pub fn new(
+        plan: &ConsistencyPlan,
+        records: &[Option<ConsistencyRecord>],
+        builds: Vec<BuildRuns>,
+    ) -> Self {
         let cells: Vec<_> = plan.cells().zip(records.chunks(plan.runs)).collect();
         let cells = cells.into_par_iter().map(|(cell, records)| {
             let done: Vec<&ConsistencyRecord> = records.iter().flatten().collect();
@@ -124,11 +133,12 @@ impl ConsistencyResults {
             runs: plan.runs,
             first_seed: plan.first_seed,
             cells: cells.collect(),
-            warnings: distinct(
+            builds,
+            warnings: merged(
                 records
                     .iter()
                     .flatten()
-                    .flat_map(|record| record.warnings.iter().cloned()),
+                    .map(|record| record.warnings.as_slice()),
             ),
         }
     }

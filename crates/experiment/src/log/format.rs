@@ -1,7 +1,7 @@
-//! The lines of a log and of the estimates made from it.
+//! The lines of a log.
 
-use adslam_estimator::{Belief, EstimatorError, FilterNoise, UpdateReport};
-use adslam_models::{FeatureId, Pose};
+use adslam_estimator::{Belief, EstimatorError, FilterNoise, PairMeasurement};
+use adslam_models::{Pose, State};
 use nalgebra::{Matrix6, Point3, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +26,41 @@ pub struct LogHeader {
     pub initial: InitialEstimate,
     /// The noise that the filter is to assume.
     pub noise: LogNoise,
+    /// When the start was, seconds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(alias = "stamp", alias = "timestamp")]
+    pub time: Option<f64>,
+    /// Where robot and features really were at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub truth: Option<LogTruth>,
+    /// Which filter the recorded run had; it is taken where nothing else is asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub filter: Option<LogFilter>,
+    /// Where the log comes from, for people.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
+}
+
+/// Where everything really was, as far as someone knows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LogTruth {
+    /// Roll, pitch, yaw (rad), x, y, z.
+    pub pose: [f64; 6],
+    /// Positions in the world.
+    pub features: Vec<[f64; 3]>,
+}
+
+/// The filter of a recorded run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LogFilter {
+    /// Its name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimator: Option<String>,
+    /// The part of good feature measurements that pass its gate; absent where it has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gate_probability: Option<f64>,
 }
 
 /// χ̂₁ and P₁.
@@ -72,8 +107,18 @@ pub struct LogStep {
     #[serde(default)]
     pub feature_measurements: Vec<LogFeature>,
     /// Measured relative positions of features.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub structure_measurements: Vec<LogPair>,
+    /// All pairs measured at once: for each feature i the sum over all j of the measured p_i − p_j, world.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub structure_sums: Option<Vec<[f64; 3]>>,
+    /// When it was, seconds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(alias = "stamp", alias = "timestamp")]
+    pub time: Option<f64>,
+    /// Where robot and features really were then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub truth: Option<LogTruth>,
 }
 
 /// u = [Ω, v].
@@ -108,33 +153,6 @@ pub struct LogPair {
     pub z: [f64; 3],
 }
 
-/// A line of the estimates. Numbers are written with as many digits, at most 17, as it takes to read the
-/// same number back.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct EstimateLine {
-    /// n.
-    pub step: u64,
-    /// Roll, pitch, yaw (rad), x, y, z.
-    pub pose: [f64; 6],
-    /// Covariance of the pose.
-    pub pose_covariance: [[f64; 6]; 6],
-    /// Positions in the world.
-    pub features: Vec<[f64; 3]>,
-    /// All variances, in the order of the state.
-    pub covariance_diagonal: Vec<f64>,
-    /// Their sum.
-    pub trace: f64,
-    /// NIS of the feature measurements that were used, and how many numbers they are.
-    #[serde(default)]
-    pub feature_nis: (f64, usize),
-    /// NIS of the structure measurements given those, and how many independent numbers they are.
-    #[serde(default)]
-    pub structure_nis: (f64, usize),
-    /// Features whose measurements the gate kept out.
-    #[serde(default)]
-    pub rejected_features: Vec<usize>,
-}
-
 impl InitialEstimate {
     /// As a belief.
     ///
@@ -145,6 +163,16 @@ impl InitialEstimate {
         let features = self.features.iter().copied().map(Point3::from).collect();
         let covariance = Matrix6::from_fn(|i, j| self.pose_covariance[i][j]);
         Belief::initial(pose, features, &covariance, self.feature_sigma)
+    }
+}
+
+impl From<&PairMeasurement> for LogPair {
+    fn from(pair: &PairMeasurement) -> Self {
+        Self {
+            from: pair.from.0,
+            to: pair.to.0,
+            z: pair.z.into(),
+        }
     }
 }
 
@@ -160,26 +188,27 @@ impl From<LogNoise> for FilterNoise {
     }
 }
 
-impl EstimateLine {
-    /// The belief at a step, after an update that reported so.
+impl LogTruth {
+    /// The truth as numbers of a log.
     #[must_use]
-    pub fn of(step: u64, belief: &Belief, report: &UpdateReport, rejected: &[FeatureId]) -> Self {
-        let covariance = belief.covariance.pose();
+    pub fn of(state: &State) -> Self {
         Self {
-            step,
-            pose: belief.state.pose.to_vector().into(),
-            pose_covariance: std::array::from_fn(|i| std::array::from_fn(|j| covariance[(i, j)])),
-            features: belief
-                .state
-                .features
-                .iter()
-                .map(|p| p.coords.into())
-                .collect(),
-            covariance_diagonal: belief.covariance.variances(),
-            trace: belief.covariance.trace(),
-            feature_nis: (report.features.value, report.features.dof),
-            structure_nis: (report.structure.value, report.structure.dof),
-            rejected_features: rejected.iter().map(|feature| feature.0).collect(),
+            pose: state.pose.to_vector().into(),
+            features: state.features.iter().map(|p| p.coords.into()).collect(),
         }
     }
+
+    /// As a state.
+    #[must_use]
+    pub fn state(&self) -> State {
+        State {
+            pose: Pose::from_vector(&Vector6::from(self.pose)),
+            features: self.features.iter().copied().map(Point3::from).collect(),
+        }
+    }
+}
+
+/// A matrix as lists of its rows.
+pub(super) fn rows(matrix: &Matrix6<f64>) -> [[f64; 6]; 6] {
+    std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
 }

@@ -10,32 +10,63 @@ use adslam_estimator::{
 use adslam_models::{Control, FeatureId};
 use nalgebra::Vector3;
 
-use super::format::{EstimateLine, LogStep};
+use super::estimates::{EstimateErrors, EstimateLine};
+use super::format::{LogFilter, LogStep, LogTruth};
 use super::read::LogReader;
+use super::summary::{ReplaySummary, SummingUp};
 use crate::ExperimentError;
 use crate::diagnostics::InputError;
-use crate::output::AtomicFile;
+use crate::metrics::{StepMetrics, measure_step};
 use crate::run::{Interrupt, gate};
-use crate::scenario::EstimatorName;
 use crate::scenario::values::GateProbability;
+use crate::scenario::{EstimatorName, Named};
 
 /// A filter working through a log.
 pub struct Replay<R> {
     log: LogReader<R>,
     name: String,
     noise: FilterNoise,
+    filter: (EstimatorName, Option<GateProbability>),
     estimator: Box<dyn Estimator>,
     belief: Belief,
     report: UpdateReport,
+    time: Option<f64>,
+    metrics: Option<StepMetrics>,
 }
 
 /// Which filter goes through a log.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FilterChoice {
-    /// The estimator.
-    pub estimator: EstimatorName,
-    /// The part of good feature measurements that pass its gate; absent where there is none.
-    pub gate_probability: Option<GateProbability>,
+    /// The estimator; absent for that of the log, or else the paper's.
+    pub estimator: Option<EstimatorName>,
+    /// What it does with feature measurements that are far from what it expects.
+    pub gate: GateChoice,
+}
+
+/// Which feature measurements a filter believes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum GateChoice {
+    /// What the log says, or else all.
+    #[default]
+    AsRecorded,
+    /// All.
+    All,
+    /// This part of good ones.
+    Probability(GateProbability),
+}
+
+impl FilterChoice {
+    /// With nothing left to the log.
+    fn resolved(self, recorded: Option<&LogFilter>) -> (EstimatorName, Option<GateProbability>) {
+        let estimator = || EstimatorName::named(recorded?.estimator.as_deref()?).ok();
+        let probability = || GateProbability::new(recorded?.gate_probability?).ok();
+        let gate = match self.gate {
+            GateChoice::AsRecorded => probability(),
+            GateChoice::All => None,
+            GateChoice::Probability(probability) => Some(probability),
+        };
+        (self.estimator.or_else(estimator).unwrap_or_default(), gate)
+    }
 }
 
 /// What to do with a line that cannot be used.
@@ -45,19 +76,6 @@ pub enum TailPolicy {
     Refuse,
     /// Keep the estimates up to the line before.
     KeepComplete,
-}
-
-/// How far a replay came.
-#[derive(Debug)]
-pub struct ReplaySummary {
-    /// Estimates written.
-    pub steps: usize,
-    /// M.
-    pub features: usize,
-    /// Feature measurements that the gate kept out.
-    pub rejected: usize,
-    /// Why it ended before the end of the log, with [`TailPolicy::KeepComplete`].
-    pub stopped_by: Option<InputError>,
 }
 
 impl<R: BufRead> Replay<R> {
@@ -79,22 +97,29 @@ impl<R: BufRead> Replay<R> {
         };
         // One log is one run, so the threads are free for its steps.
         let noise = log.header().noise.into();
-        let estimator = EstimatorKind::from(choice.estimator)
-            .build(noise, choice.gate_probability.map(gate), Parallelism::Rayon)
+        let (name, probability) = choice.resolved(log.header().filter.as_ref());
+        let estimator = EstimatorKind::from(name)
+            .build(noise, probability.map(gate), Parallelism::Rayon)
             .map_err(|error| about("noise", error))?;
         let belief = log
             .header()
             .initial
             .belief()
             .map_err(|error| about("first estimate", error))?;
-        Ok(Self {
+        let mut replay = Self {
+            time: log.header().time,
             log,
             name: path.display().to_string(),
             noise,
+            filter: (name, probability),
             estimator,
             belief,
             report: UpdateReport::default(),
-        })
+            metrics: None,
+        };
+        let truth = replay.log.header().truth.clone();
+        replay.compare(truth.as_ref())?;
+        Ok(replay)
     }
 
     /// Filters the next step; nothing at the end of the log.
@@ -110,7 +135,25 @@ impl<R: BufRead> Replay<R> {
             step: usize::try_from(step.step).unwrap_or(usize::MAX),
             cause,
         })?;
+        self.time = step.time;
+        self.compare(step.truth.as_ref())?;
         Ok(Some(step.step))
+    }
+
+    /// Measures how far the belief is from the truth, where that is known.
+    fn compare(&mut self, truth: Option<&LogTruth>) -> Result<(), InputError> {
+        self.metrics = None;
+        if let Some(truth) = truth.map(LogTruth::state) {
+            let error = self.estimator.error(&self.belief.state, &truth);
+            let metrics = measure_step(&self.belief, &truth, &error);
+            self.metrics = metrics.filter(|found| EstimateErrors::from(found).are_finite());
+            if self.metrics.is_none() {
+                let what = "has a truth from which the error is not finite";
+                let help = "is it in the log's unit of length?";
+                return Err(self.log.error(what, help));
+            }
+        }
+        Ok(())
     }
 
     /// What the filter believes after the step advanced to last.
@@ -128,7 +171,11 @@ impl<R: BufRead> Replay<R> {
     /// The estimates after the step advanced to last, which was `step`.
     #[must_use]
     pub fn estimates(&self, step: u64) -> EstimateLine {
-        EstimateLine::of(step, &self.belief, &self.report, self.estimator.rejected())
+        EstimateLine {
+            time: self.time,
+            errors: self.metrics.as_ref().map(EstimateErrors::from),
+            ..EstimateLine::of(step, &self.belief, &self.report, self.estimator.rejected())
+        }
     }
 
     fn apply(&mut self, step: &LogStep) -> Result<(), EstimatorError> {
@@ -159,7 +206,14 @@ impl<R: BufRead> Replay<R> {
                 z: Vector3::from(m.z),
             })
             .collect();
-        let structure = StructureMeasurements::Pairs(&pairs);
+        let sums: Option<Vec<Vector3<f64>>> = step
+            .structure_sums
+            .as_ref()
+            .map(|sums| sums.iter().copied().map(Vector3::from).collect());
+        let structure = match &sums {
+            Some(sums) => StructureMeasurements::AllPairsSummed(sums),
+            None => StructureMeasurements::Pairs(&pairs),
+        };
         self.estimator
             .predict(&mut self.belief, &control, &motion)?;
         let measurements = Measurements {
@@ -171,45 +225,37 @@ impl<R: BufRead> Replay<R> {
     }
 }
 
-/// Filters the log in `reader` and writes a line of estimates for each step to `out`. `path` is for
-/// messages; `progress` is called after each step.
+/// Filters the log in `reader` and hands on a line of estimates for each step, as it comes. `path` is for
+/// messages.
 ///
 /// # Errors
-/// Bad lines (unless kept out by `policy`), a covariance that breaks down, a failing writer, or an
-/// interruption.
+/// Bad lines (unless kept out by `policy`), a covariance that breaks down, an interruption, or whatever
+/// `each` cannot go on with.
 pub fn filter_log(
     reader: impl BufRead,
     path: &Path,
     choice: FilterChoice,
-    out: &mut AtomicFile,
     policy: TailPolicy,
     interrupt: &Interrupt,
-    progress: &mut dyn FnMut(),
+    each: &mut dyn FnMut(&EstimateLine) -> Result<(), ExperimentError>,
 ) -> Result<ReplaySummary, ExperimentError> {
     let mut replay = Replay::new(reader, path, choice)?;
-    let features = replay.log.header().features;
-    let mut summary = ReplaySummary {
-        steps: 0,
-        features,
-        rejected: 0,
-        stopped_by: None,
-    };
+    let mut sums = SummingUp::new(replay.log.header(), replay.filter);
+    sums.add_metrics(replay.metrics.as_ref());
     loop {
         if interrupt.requested() {
             return Err(ExperimentError::Interrupted);
         }
         let step = match replay.advance() {
             Ok(Some(step)) => step,
-            Ok(None) => return Ok(summary),
+            Ok(None) => return Ok(sums.finish(None)),
             Err(ExperimentError::Input(error)) if policy == TailPolicy::KeepComplete => {
-                summary.stopped_by = Some(error);
-                return Ok(summary);
+                return Ok(sums.finish(Some(error)));
             }
             Err(error) => return Err(error),
         };
-        out.add_json_line(&replay.estimates(step))?;
-        summary.steps += 1;
-        summary.rejected += replay.report.rejected;
-        progress();
+        each(&replay.estimates(step))?;
+        sums.add_update(step, &replay.report);
+        sums.add_metrics(replay.metrics.as_ref());
     }
 }

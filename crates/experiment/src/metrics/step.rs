@@ -14,6 +14,9 @@ pub struct StepMetrics {
     pub pose_error: f64,
     /// The orientation's part of it, radians.
     pub orientation_error: f64,
+    /// The angle of the rotation between the true orientation and the estimate, radians: the geodesic distance
+    /// on SO(3), which no choice of angles changes.
+    pub geodesic_orientation_error: f64,
     /// The position's part of it, cm.
     pub position_error: f64,
     /// Eq. (12) for each feature, cm.
@@ -27,6 +30,10 @@ pub struct StepMetrics {
     pub joint_nees_per_dof: Option<f64>,
     /// Eq. (11) after the estimate was aligned to the object, see [`measure_step`].
     pub relative_pose_error: f64,
+    /// The geodesic distance of the orientations after the alignment, radians.
+    pub relative_geodesic_orientation_error: f64,
+    /// The distance of the positions after the alignment, cm.
+    pub relative_position_error: f64,
     /// Mean of eq. (12) after the alignment, cm.
     pub relative_feature_error: f64,
 }
@@ -42,7 +49,7 @@ pub struct StepMetrics {
 #[must_use]
 pub fn measure_step(belief: &Belief, truth: &State, own_error: &[f64]) -> Option<StepMetrics> {
     let State { pose, features } = truth;
-    let error = belief.state.pose.minus(pose);
+    let error = belief.state.pose.error(pose);
     let estimated = &belief.state.features;
     let distances = |moved: &Isometry3<f64>| -> Vec<f64> {
         estimated
@@ -54,9 +61,11 @@ pub fn measure_step(belief: &Belief, truth: &State, own_error: &[f64]) -> Option
     let feature_errors = distances(&Isometry3::identity());
     let alignment = align(estimated, features)?;
     let relative_pose = moved_pose(&belief.state.pose, &alignment);
+    let relative_error = relative_pose.error(pose);
     Some(StepMetrics {
         pose_error: error.norm(),
         orientation_error: error.fixed_rows::<3>(0).norm(),
+        geodesic_orientation_error: belief.state.pose.orientation.angle_to(pose.orientation),
         position_error: error.fixed_rows::<3>(3).norm(),
         pose_nees: pose_nees(belief, own_error),
         feature_nees: feature_nees(belief, own_error),
@@ -65,7 +74,9 @@ pub fn measure_step(belief: &Belief, truth: &State, own_error: &[f64]) -> Option
             .mahalanobis_squared(own_error)
             .ok()
             .map(|nees| nees / own_error.len() as f64),
-        relative_pose_error: relative_pose.minus(pose).norm(),
+        relative_pose_error: relative_error.norm(),
+        relative_geodesic_orientation_error: relative_pose.orientation.angle_to(pose.orientation),
+        relative_position_error: relative_error.fixed_rows::<3>(3).norm(),
         relative_feature_error: mean(&distances(&alignment)),
         feature_errors,
     })
@@ -140,6 +151,7 @@ mod tests {
         let metrics = measured(&belief, &truth);
         assert_relative_eq!(metrics.pose_error, 0.13, epsilon = 1e-12);
         assert_relative_eq!(metrics.orientation_error, 0.12, epsilon = 1e-12);
+        assert_relative_eq!(metrics.geodesic_orientation_error, 0.12, epsilon = 1e-12);
         assert_relative_eq!(metrics.position_error, 0.05, epsilon = 1e-12);
         assert_relative_eq!(metrics.pose_nees.unwrap(), 1.69, epsilon = 1e-10);
         assert_relative_eq!(metrics.feature_nees[3].unwrap(), 4.0, epsilon = 1e-10);
@@ -148,6 +160,26 @@ mod tests {
         assert_relative_eq!(metrics.joint_nees_per_dof.unwrap(), joint, epsilon = 1e-10);
         assert_relative_eq!(metrics.feature_errors[2], 0.2, epsilon = 1e-12);
         assert!(metrics.relative_feature_error < 1e-12);
+    }
+
+    /// The alignment turns the estimate by a rotation, whose angles have their pitch within ±90°.
+    #[test]
+    fn a_pitch_beyond_a_right_angle_is_no_error() {
+        let mut truth = truth();
+        truth.pose.orientation = EulerAngles::new(0.1, 2.1, -0.4);
+        let State { pose, features } = truth.clone();
+        let estimate = pose.plus(&Vector6::new(0.0, 0.02, 0.0, 0.3, 0.0, 0.4));
+        let belief = Belief::initial(estimate, features, &Matrix6::zeros(), 0.1).unwrap();
+        let metrics = measured(&belief, &truth);
+        assert_relative_eq!(metrics.pose_error, 0.2504_f64.sqrt(), epsilon = 1e-12);
+        assert_relative_eq!(
+            metrics.relative_pose_error,
+            metrics.pose_error,
+            epsilon = 1e-9
+        );
+        let geodesic = metrics.relative_geodesic_orientation_error;
+        assert_relative_eq!(geodesic, 0.02, epsilon = 1e-9);
+        assert_relative_eq!(metrics.relative_position_error, 0.5, epsilon = 1e-9);
     }
 
     #[test]
@@ -161,6 +193,8 @@ mod tests {
         let metrics = measured(&belief, &truth);
         assert!(metrics.pose_error > 0.3);
         assert!(metrics.relative_pose_error < 1e-12);
+        assert!(metrics.relative_geodesic_orientation_error < 1e-12);
+        assert!(metrics.relative_position_error < 1e-12);
         assert_eq!(metrics.pose_nees, None, "an exactly known pose has no NEES");
     }
 }

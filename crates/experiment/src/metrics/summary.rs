@@ -1,6 +1,7 @@
 //! One run in a few numbers: RUN of tables.json.
 
 use adslam_estimator::{Nis, UpdateReport};
+use adslam_planning::Decision;
 use serde::{Deserialize, Serialize};
 
 use super::DecisionTimes;
@@ -24,12 +25,24 @@ pub struct RunSummary {
     pub drift_floor_mean: f64,
     /// Maximum over all steps of eq. (11).
     pub pose_error_max: f64,
+    /// Mean over all steps of the geodesic distance of the estimated from the true orientation, rad.
+    #[serde(default)]
+    pub geodesic_orientation_error_mean: Option<f64>,
+    /// Mean over all steps of the distance of the estimated from the true position, cm.
+    #[serde(default)]
+    pub position_error_mean: Option<f64>,
     /// Mean over the features of eq. (12) at the last step.
     pub feature_error_mean: f64,
     /// Maximum over the features of eq. (12) at the last step.
     pub feature_error_max: f64,
     /// Mean over all steps of the object-relative pose error.
     pub relative_pose_error_mean: f64,
+    /// Mean over all steps of the object-relative geodesic orientation error, rad.
+    #[serde(default)]
+    pub relative_geodesic_orientation_error_mean: Option<f64>,
+    /// Mean over all steps of the object-relative position error, cm.
+    #[serde(default)]
+    pub relative_position_error_mean: Option<f64>,
     /// Mean over all steps of the mean object-relative feature error.
     pub relative_feature_error_mean: f64,
     /// Mean pose NEES over the steps that have one; 6 is consistent.
@@ -54,6 +67,12 @@ pub struct RunSummary {
     pub steps_below_clearance: usize,
     /// Decisions for which no action was safe.
     pub compromised_decisions: usize,
+    /// Decisions for controls beyond the limits of roll and pitch, as no action kept them.
+    #[serde(default)]
+    pub limits_waived_decisions: usize,
+    /// How often a viewpoint was given up, as the robot came no nearer to it.
+    #[serde(default)]
+    pub abandoned_viewpoints: usize,
     /// What went wrong with measurements; absent where the scenario lets nothing go wrong.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub faults: Option<FaultCounts>,
@@ -66,7 +85,11 @@ pub struct RunSummary {
 pub struct SummaryBuilder {
     pose_errors: Vec<f64>,
     drift_floors: Vec<f64>,
+    geodesic_orientation_errors: Vec<f64>,
+    position_errors: Vec<f64>,
     relative_pose_errors: Vec<f64>,
+    relative_geodesic_orientation_errors: Vec<f64>,
+    relative_position_errors: Vec<f64>,
     relative_feature_errors: Vec<f64>,
     pose_nees: Vec<f64>,
     feature_nees: Vec<f64>,
@@ -81,6 +104,8 @@ pub struct SummaryBuilder {
     inside: usize,
     below_clearance: usize,
     compromised: usize,
+    limits_waived: usize,
+    abandoned: usize,
     faults: Option<FaultCounts>,
     decision_ms: Vec<f64>,
 }
@@ -138,7 +163,14 @@ impl SummaryBuilder {
             self.coverage_step = Some(step);
         }
         self.pose_errors.push(metrics.pose_error);
+        self.geodesic_orientation_errors
+            .push(metrics.geodesic_orientation_error);
+        self.position_errors.push(metrics.position_error);
         self.relative_pose_errors.push(metrics.relative_pose_error);
+        self.relative_geodesic_orientation_errors
+            .push(metrics.relative_geodesic_orientation_error);
+        self.relative_position_errors
+            .push(metrics.relative_position_error);
         self.relative_feature_errors
             .push(metrics.relative_feature_error);
         self.pose_nees.extend(metrics.pose_nees);
@@ -150,9 +182,11 @@ impl SummaryBuilder {
     }
 
     /// Adds a decision that took this long.
-    pub fn add_decision(&mut self, milliseconds: f64, compromised: bool) {
+    pub fn add_decision(&mut self, milliseconds: f64, decision: &Decision) {
         self.decision_ms.push(milliseconds);
-        self.compromised += usize::from(compromised);
+        self.compromised += usize::from(decision.compromised);
+        self.limits_waived += usize::from(decision.limits_waived);
+        self.abandoned += usize::from(decision.abandoned.is_some());
     }
 
     /// Adds what an update said about the filter.
@@ -179,9 +213,15 @@ impl SummaryBuilder {
             pose_error_mean: mean(&self.pose_errors),
             drift_floor_mean: mean(&self.drift_floors),
             pose_error_max: largest(&self.pose_errors),
+            geodesic_orientation_error_mean: mean_of_some(&self.geodesic_orientation_errors),
+            position_error_mean: mean_of_some(&self.position_errors),
             feature_error_mean: mean(&self.last_feature_errors),
             feature_error_max: largest(&self.last_feature_errors),
             relative_pose_error_mean: mean(&self.relative_pose_errors),
+            relative_geodesic_orientation_error_mean: mean_of_some(
+                &self.relative_geodesic_orientation_errors,
+            ),
+            relative_position_error_mean: mean_of_some(&self.relative_position_errors),
             relative_feature_error_mean: mean(&self.relative_feature_errors),
             pose_nees_mean: mean_of_some(&self.pose_nees),
             feature_nees_mean: mean_of_some(&self.feature_nees),
@@ -192,6 +232,8 @@ impl SummaryBuilder {
             steps_inside_object: self.inside,
             steps_below_clearance: self.below_clearance,
             compromised_decisions: self.compromised,
+            limits_waived_decisions: self.limits_waived,
+            abandoned_viewpoints: self.abandoned,
             faults: self.faults,
             decision_ms: DecisionTimes::of(self.decision_ms),
         }
@@ -205,18 +247,24 @@ fn per_dof(nis: Nis) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use adslam_models::Control;
+    use nalgebra::Point3;
+
     use super::*;
 
     fn metrics(error: f64) -> StepMetrics {
         StepMetrics {
             pose_error: error,
             orientation_error: 0.0,
+            geodesic_orientation_error: error / 8.0,
             position_error: error,
             feature_errors: vec![error, 3.0 * error],
             pose_nees: (error > 0.0).then_some(6.0),
             feature_nees: vec![Some(3.0)],
             joint_nees_per_dof: None,
             relative_pose_error: error / 2.0,
+            relative_geodesic_orientation_error: error / 16.0,
+            relative_position_error: error / 4.0,
             relative_feature_error: error,
         }
     }
@@ -227,8 +275,15 @@ mod tests {
         builder.add_step(1, [0], &metrics(0.0), 1.0, 0.3);
         builder.add_step(2, [0], &metrics(0.3), 0.2, 0.3);
         builder.add_step(3, [0, 1], &metrics(0.6), -0.1, 0.3);
-        builder.add_decision(1.0, false);
-        builder.add_decision(3.0, true);
+        let decision = Decision::without_choice(Control::default());
+        builder.add_decision(1.0, &decision);
+        let compromise = Decision {
+            compromised: true,
+            limits_waived: true,
+            abandoned: Some((0, Point3::origin())),
+            ..decision
+        };
+        builder.add_decision(3.0, &compromise);
         for value in [3.0, 9.0] {
             builder.add_update(&UpdateReport {
                 features: Nis { value, dof: 6 },
@@ -244,6 +299,15 @@ mod tests {
         assert_eq!(run.steps_to_full_coverage, Some(3));
         assert!((run.pose_error_mean - 0.3).abs() < 1e-15);
         assert!((run.drift_floor_mean - 0.1).abs() < 1e-15);
+        for (mean, expected) in [
+            (run.geodesic_orientation_error_mean, 0.3 / 8.0),
+            (run.position_error_mean, 0.3),
+            (Some(run.relative_pose_error_mean), 0.3 / 2.0),
+            (run.relative_geodesic_orientation_error_mean, 0.3 / 16.0),
+            (run.relative_position_error_mean, 0.3 / 4.0),
+        ] {
+            assert!((mean.unwrap() - expected).abs() < 1e-15);
+        }
         assert_eq!(
             (run.pose_error_max, run.feature_error_max),
             (0.6, 3.0 * 0.6)
@@ -258,6 +322,10 @@ mod tests {
         assert_eq!(run.structure_nis_per_dof, None);
         assert_eq!(run.rejected_measurements, 4);
         assert_eq!(run.compromised_decisions, 1);
+        assert_eq!(
+            (run.limits_waived_decisions, run.abandoned_viewpoints),
+            (1, 1)
+        );
         assert_eq!(
             run.decision_ms,
             Some(DecisionTimes {

@@ -20,4 +20,4 @@ pub use steps::StepsFile;
 pub use table_file::{Column, ColumnKind, TableFile};
 pub use temporary::prepare_folder;
 pub(crate) use temporary::{make_folder, not_writable};
-pub use tum::TumFile;
+pub use tum::{TumFile, TumTime};

@@ -40,9 +40,12 @@ struct Row {
     /// Eq. (11): radians and cm together.
     pose_error_rad_cm: f64,
     orientation_error_rad: f64,
+    geodesic_orientation_error_rad: f64,
     position_error_cm: f64,
     drift_floor_cm: f64,
     relative_pose_error_rad_cm: f64,
+    relative_geodesic_orientation_error_rad: f64,
+    relative_position_error_cm: f64,
     feature_error_mean_cm: f64,
     feature_error_max_cm: f64,
     relative_feature_error_mean_cm: f64,
@@ -73,6 +76,8 @@ struct Row {
     safe_actions: Option<usize>,
     scored_actions: Option<usize>,
     compromised: Option<u8>,
+    limits_waived: Option<u8>,
+    abandoned_goal_number: Option<usize>,
     decision_time_ms: Option<f64>,
 }
 
@@ -142,9 +147,12 @@ impl StepsFile {
             sigma_z_cm: sigma[5],
             pose_error_rad_cm: metrics.pose_error,
             orientation_error_rad: metrics.orientation_error,
+            geodesic_orientation_error_rad: metrics.geodesic_orientation_error,
             position_error_cm: metrics.position_error,
             drift_floor_cm: view.drift_floor,
             relative_pose_error_rad_cm: metrics.relative_pose_error,
+            relative_geodesic_orientation_error_rad: metrics.relative_geodesic_orientation_error,
+            relative_position_error_cm: metrics.relative_position_error,
             feature_error_mean_cm: errors.iter().sum::<f64>() / errors.len() as f64,
             feature_error_max_cm: errors.iter().copied().fold(0.0, f64::max),
             relative_feature_error_mean_cm: metrics.relative_feature_error,
@@ -175,6 +183,8 @@ impl StepsFile {
             safe_actions: decision.map(|d| d.safe),
             scored_actions: decision.map(|d| d.scored),
             compromised: decision.map(|d| u8::from(d.compromised)),
+            limits_waived: decision.map(|d| u8::from(d.limits_waived)),
+            abandoned_goal_number: decision.and_then(|d| Some(d.abandoned?.0)),
             decision_time_ms: view.decision.map(|(_, ms)| ms),
         }
     }

@@ -1,5 +1,6 @@
 //! Trajectories in the TUM format, which the evo tools read.
 
+use std::fmt::Display;
 use std::io::Write;
 use std::path::Path;
 
@@ -7,39 +8,65 @@ use adslam_models::Pose;
 
 use super::AtomicFile;
 use crate::ExperimentError;
+use crate::scenario::LengthUnit;
 
-/// A trajectory: a line a pose, `timestamp tx ty tz qx qy qz qw`. The timestamp is the step; positions
-/// are in cm, the unit of everything here, and the quaternion takes body to world.
+/// A trajectory: a line a pose, `timestamp tx ty tz qx qy qz qw`. The quaternion takes body to world.
 #[derive(Debug)]
 pub struct TumFile {
     file: AtomicFile,
+    /// What one unit of the poses is in the file.
+    scale: f64,
+}
+
+/// What the time stamps of a trajectory are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TumTime {
+    /// Numbers of steps.
+    Step,
+    /// Seconds.
+    Seconds,
 }
 
 impl TumFile {
-    /// Starts a trajectory at `path`.
+    /// The unit in which the evo tools expect positions.
+    pub const USUAL_UNIT: LengthUnit = LengthUnit::M;
+
+    /// Starts a trajectory at `path` of poses whose positions are in the unit `given`; they are written in
+    /// `written`.
     ///
     /// # Errors
     /// [`ExperimentError::Output`].
-    pub fn create(path: &Path) -> Result<Self, ExperimentError> {
+    pub fn create(
+        path: &Path,
+        time: TumTime,
+        given: LengthUnit,
+        written: LengthUnit,
+    ) -> Result<Self, ExperimentError> {
         let mut file = AtomicFile::create(path)?;
-        writeln!(
+        let time = match time {
+            TumTime::Step => "step",
+            TumTime::Seconds => "s",
+        };
+        file.add(&format!(
+            "# timestamp[{time}] tx[{written}] ty[{written}] tz[{written}] qx qy qz qw (world from \
+             body)\n"
+        ))?;
+        Ok(Self {
             file,
-            "# timestamp[step] tx[cm] ty[cm] tz[cm] qx qy qz qw (world from body)"
-        )
-        .map_err(ExperimentError::output(path))?;
-        Ok(Self { file })
+            scale: given.in_cm() / written.in_cm(),
+        })
     }
 
-    /// Adds the pose at a step.
+    /// Adds the pose at a time.
     ///
     /// # Errors
     /// [`ExperimentError::Output`].
-    pub fn add(&mut self, step: usize, pose: &Pose) -> Result<(), ExperimentError> {
-        let p = pose.position;
+    pub fn add(&mut self, time: impl Display, pose: &Pose) -> Result<(), ExperimentError> {
+        let p = pose.position.coords * self.scale;
         let q = pose.orientation.quaternion().into_inner();
         writeln!(
             self.file,
-            "{step} {:e} {:e} {:e} {:e} {:e} {:e} {:e}",
+            "{time} {:e} {:e} {:e} {:e} {:e} {:e} {:e}",
             p.x, p.y, p.z, q.i, q.j, q.k, q.w
         )
         .map_err(ExperimentError::output(self.file.path()))

@@ -132,16 +132,6 @@ pub fn refuse_part_of_run(path: &Path) -> Result<(), InputError> {
     Err(InputError::about_file(path, message).with_help("give another path with --out"))
 }
 
-/// Refuses a folder that holds a run, for what is none.
-pub(crate) fn refuse_run(folder: &Path) -> Result<(), InputError> {
-    if !is_there(&folder.join(RUN_FILE))? {
-        return Ok(());
-    }
-    let message = format!("{} holds a run", folder.display());
-    Err(InputError::about_file(folder, message)
-        .with_help("give another folder with --out, or one that does not exist yet"))
-}
-
 /// A run that lies in a folder, of which the history has been read.
 #[derive(Clone, Debug)]
 pub struct StoredRun {

@@ -1,9 +1,9 @@
 //! What can be seen of a run while it goes on.
 
-use adslam_estimator::{Belief, UpdateReport};
-use adslam_models::{FeatureId, Pose};
+use adslam_estimator::{Belief, Measurements, UpdateReport};
+use adslam_models::{Control, FeatureId, Pose};
 use adslam_planning::{Decision, Score};
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use crate::ExperimentError;
 use crate::metrics::StepMetrics;
@@ -23,6 +23,8 @@ pub struct StepView<'a> {
     pub visible: &'a [FeatureId],
     /// The errors.
     pub metrics: &'a StepMetrics,
+    /// What the filter was given to come here; none at the start.
+    pub input: Option<FilterInput<'a>>,
     /// What the measurements said about the filter; none at the start.
     pub update: Option<&'a UpdateReport>,
     /// The drift floor: the error of the position that the noise alone is expected to cost, cm.
@@ -35,6 +37,17 @@ pub struct StepView<'a> {
     pub scores: &'a [Score],
     /// The viewpoints that the planner visits.
     pub viewpoints: &'a [Point3<f64>],
+}
+
+/// All that the filter learns of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct FilterInput<'a> {
+    /// u from the step before.
+    pub control: &'a Control,
+    /// The known motion of each feature from the step before, cm, world.
+    pub feature_motion: &'a [Vector3<f64>],
+    /// What was measured.
+    pub measurements: Measurements<'a>,
 }
 
 /// Watches a run: writes it down, draws it, or stops it with an error.

@@ -3,13 +3,15 @@
 use adslam_estimator::Belief;
 use adslam_planning::{
     CombinedPlanner, GlobalPlanner, Goals, LocalPlanner, Nearest, Planner, PlanningError,
-    PlanningNoise, PredeterminedPlanner, ViewpointSampling, features_never_seen, sample_viewpoints,
+    PlanningNoise, PredeterminedPlanner, ViewpointSampling, can_be_reached, features_never_seen,
+    sample_viewpoints,
 };
 use adslam_surface::Surface;
+use nalgebra::Point3;
 use rand::RngExt;
 
 use super::Setup;
-use super::setup::numbers;
+use super::start::numbers;
 use crate::scenario::{self, PlannerName, Viewpoints};
 use crate::world::{Stream, stream};
 
@@ -67,6 +69,7 @@ fn goals(setup: &Setup, belief: &Belief, seed: u64) -> Result<(Goals, Vec<String
     let parameters = &setup.scenario.planners.global;
     let model = &setup.planning;
     let surface = Surface::new(&model.topology, &belief.state.features)?;
+    let mut warnings = Vec::new();
     let viewpoints: Vec<_> = match &setup.scenario.viewpoints {
         Viewpoints::Fixed(fixed) => fixed.positions_cm.iter().map(|p| p.point()).collect(),
         Viewpoints::Sampled(grid) => {
@@ -74,9 +77,11 @@ fn goals(setup: &Setup, belief: &Belief, seed: u64) -> Result<(Goals, Vec<String
                 samples: parameters.samples.get(),
                 crossing_penalty: *parameters.crossing_penalty_cm,
             };
+            let (candidates, left_out) = reachable(setup, grid.candidates(), &surface)?;
+            warnings.extend(left_out);
             let mut generator = stream(seed, Stream::Planner);
             let path = sample_viewpoints(
-                &grid.candidates(),
+                &candidates,
                 &model.sensor,
                 &belief.state.pose,
                 &surface,
@@ -87,7 +92,6 @@ fn goals(setup: &Setup, belief: &Belief, seed: u64) -> Result<(Goals, Vec<String
         }
     };
     let unseen = features_never_seen(&viewpoints, &model.sensor, &belief.state.pose, &surface);
-    let mut warnings = Vec::new();
     if !unseen.is_empty() {
         warnings.push(format!(
             "{}: no viewpoint sees features {}; the global path does not cover them",
@@ -95,8 +99,38 @@ fn goals(setup: &Setup, belief: &Belief, seed: u64) -> Result<(Goals, Vec<String
             numbers(unseen.iter().map(|feature| feature.0))
         ));
     }
-    Ok((
-        Goals::new(viewpoints, *parameters.reached_within_cm)?,
-        warnings,
-    ))
+    let goals = Goals::new(viewpoints, *parameters.reached_within_cm)?
+        .giving_up_after(parameters.give_up_after_steps.get());
+    Ok((goals, warnings))
+}
+
+/// The candidates that a robot that keeps its clearance can reach, and how many are left out for it.
+fn reachable(
+    setup: &Setup,
+    candidates: Vec<Point3<f64>>,
+    surface: &Surface,
+) -> Result<(Vec<Point3<f64>>, Option<String>), PlanningError> {
+    let clearance = setup.planning.clearance;
+    let reached_within = *setup.scenario.planners.global.reached_within_cm;
+    let count = candidates.len();
+    let (reachable, others): (Vec<_>, Vec<_>) = candidates
+        .into_iter()
+        .partition(|p| can_be_reached(p, surface, clearance, reached_within));
+    let too_near = |p: &&Point3<f64>| surface.signed_distance(p) > 0.0;
+    let left_out = others.iter().filter(too_near).count();
+    if reachable.is_empty() && left_out > 0 {
+        return Err(PlanningError::NoReachableViewpoints {
+            candidates: count,
+            clearance,
+            reached_within,
+        });
+    }
+    let warning = (left_out > 0).then(|| {
+        format!(
+            "{}: viewpoint candidates are left out, as a robot that keeps its clearance of {clearance} cm does not \
+             come within {reached_within} cm of them ({left_out} of {count})",
+            setup.name
+        )
+    });
+    Ok((reachable, warning))
 }

@@ -3,15 +3,17 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
+
 use super::folder::{RunFolder, SCENARIO_FILE};
 use super::manifest::RunManifest;
 use super::{HistoryRecorder, Observer, RunHistory, Setup, StepView};
 use crate::ExperimentError;
 use crate::metrics::RunSummary;
 use crate::output::{
-    AtomicFile, FeaturesFile, LastFeatures, PoseCovarianceFile, StepsFile, TumFile,
+    AtomicFile, FeaturesFile, LastFeatures, PoseCovarianceFile, StepsFile, TumFile, TumTime,
 };
-use crate::scenario::PlannerName;
+use crate::scenario::{LengthUnit, PlannerName};
 
 /// Writes a run into a folder. The files appear when the run has finished, all complete, in the place of the run that
 /// was there.
@@ -31,9 +33,19 @@ pub struct RunRecorder<'a> {
     folder: RunFolder,
 }
 
+/// What summary.json holds.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct RunReport<'a> {
+    /// The run in a few numbers.
+    #[serde(flatten)]
+    pub summary: &'a RunSummary,
+    /// What its user should know of it and of its scenario.
+    pub warnings: &'a [String],
+}
+
 impl<'a> RunRecorder<'a> {
     /// Begins to write the run of `planner` with `seed` into `folder`, which is made if need be and is locked until
-    /// the recorder is dropped.
+    /// the recorder is dropped; the positions of the trajectories in `unit`.
     ///
     /// # Errors
     /// [`InputError`](crate::diagnostics::InputError) where the folder holds anything but a run, where another
@@ -43,11 +55,14 @@ impl<'a> RunRecorder<'a> {
         setup: &'a Setup,
         planner: PlannerName,
         seed: u64,
+        unit: LengthUnit,
     ) -> Result<Self, ExperimentError> {
         let scenario = setup.scenario.to_toml()?;
         let lock = RunFolder::lock(folder)?;
         let feature_count = setup.world.rest.len();
         let path = |name: &str| folder.join(name);
+        let trajectory =
+            |name: &str| TumFile::create(&path(name), TumTime::Step, LengthUnit::Cm, unit);
         Ok(Self {
             history: HistoryRecorder::new(setup, planner, seed),
             summary: AtomicFile::create(&path("summary.json"))?,
@@ -55,8 +70,8 @@ impl<'a> RunRecorder<'a> {
             steps: StepsFile::create(&path("steps.csv"), feature_count)?,
             pose_covariance: PoseCovarianceFile::create(&path("pose_covariance.csv"))?,
             features: FeaturesFile::create(&path("features.csv"), feature_count)?,
-            truth: TumFile::create(&path("truth.tum"))?,
-            estimate: TumFile::create(&path("estimate.tum"))?,
+            truth: trajectory("truth.tum")?,
+            estimate: trajectory("estimate.tum")?,
             last: LastFeatures::default(),
             manifest: RunManifest::new(setup, planner, seed),
             path: folder.to_owned(),
@@ -77,10 +92,10 @@ impl<'a> RunRecorder<'a> {
     /// [`ExperimentError::Output`]; unless a file cannot be renamed, nothing has changed then.
     pub fn commit(
         mut self,
-        summary: &RunSummary,
+        report: &RunReport<'_>,
         others: Vec<AtomicFile>,
     ) -> Result<Vec<PathBuf>, ExperimentError> {
-        self.summary.add_json(summary)?;
+        self.summary.add_json(report)?;
         let mut files = vec![
             self.scenario,
             self.steps.finish()?,

@@ -1,16 +1,19 @@
 //! The object as it is before it moves, and what is said if it cannot be built.
 
-use adslam_surface::{Mesh, SurfaceError, Topology, heart_phantom, pick_features};
+use adslam_surface::{Mesh, MeshFile, SurfaceError, Topology, heart_phantom, pick_features};
 use nalgebra::Point3;
 
 use crate::diagnostics::InputError;
+use crate::near_vertices;
 use crate::scenario::{self, Object, Scenario, values};
 
-/// Features, the surface over them, and the surface that is drawn.
+/// Features, the surface over them, the surface that is drawn, and what is to be known of the file
+/// that it was read from.
 pub(super) struct RestObject {
     pub(super) features: Vec<Point3<f64>>,
     pub(super) topology: Topology,
     pub(super) drawn: Mesh,
+    pub(super) notes: Vec<String>,
 }
 
 impl RestObject {
@@ -39,13 +42,15 @@ impl RestObject {
                     features,
                     topology,
                     drawn,
+                    notes: Vec::new(),
                 })
             }
             Object::Mesh(mesh) => {
                 refuse_missing(scenario, mesh)?;
-                let read = Mesh::read(&mesh.file).map_err(blame("object.mesh.file"))?;
-                Self::picked(mesh.placed(read), mesh.features, mesh.feature_seed)
-                    .map_err(blame("object.mesh.features"))
+                let (read, notes) = closed_mesh(scenario, mesh)?;
+                let object = Self::picked(mesh.placed(read), mesh.features, mesh.feature_seed)
+                    .map_err(blame("object.mesh.features"))?;
+                Ok(Self { notes, ..object })
             }
             Object::Phantom(phantom) => {
                 let generated = heart_phantom(*phantom.spacing_cm)
@@ -66,8 +71,42 @@ impl RestObject {
             features,
             topology,
             drawn,
+            notes: Vec::new(),
         })
     }
+}
+
+/// The mesh in its own unit, its near vertices joined, and the notes on it.
+fn closed_mesh(
+    scenario: &Scenario,
+    given: &scenario::Mesh,
+) -> Result<(Mesh, Vec<String>), InputError> {
+    let blame = |error| blamed(scenario, "object.mesh.file", &error);
+    let MeshFile {
+        mut mesh,
+        mut notes,
+        ..
+    } = MeshFile::read(&given.file).map_err(blame)?;
+    let in_cm = given.unit.in_cm();
+    let joined = mesh.join_within(*given.join_within_cm / in_cm);
+    notes.extend(near_vertices::joined_note(
+        &joined,
+        *given.join_within_cm,
+        in_cm,
+    ));
+    let Err(cause) = mesh.check_closed() else {
+        let file = given.file.display();
+        let about_file = |note| format!("mesh file {file}: {note}");
+        return Ok((mesh, notes.into_iter().map(about_file).collect()));
+    };
+    let error = blame(SurfaceError::InFile {
+        path: given.file.clone(),
+        cause: Box::new(cause),
+    });
+    Err(match near_vertices::closing_advice(&mesh, in_cm) {
+        Some((_, advice)) => error.with_help(advice),
+        None => error,
+    })
 }
 
 /// So many vertices of the mesh, and the hull over them.

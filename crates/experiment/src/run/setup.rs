@@ -6,12 +6,12 @@ use adslam_deformation::ObjectMotion;
 use adslam_estimator::{Estimator, EstimatorError, EstimatorKind, FilterNoise, Parallelism};
 use adslam_models::{Control, EulerAngles, Pose, Sensor};
 use adslam_planning::{ActionSet, PlanningModel};
-use adslam_surface::{Mesh, Surface, Topology};
+use adslam_surface::{Mesh, Topology};
 use nalgebra::{Point3, Vector3};
 
-use super::rest_object::{RestObject, blamed};
+use super::rest_object::RestObject;
 use crate::diagnostics::InputError;
-use crate::scenario::{self, PlannerName, Scenario, Structure, Viewpoints, values};
+use crate::scenario::{self, PlannerName, Scenario, Structure, values};
 use crate::statistics::chi_squared;
 use crate::world::{DeformationNoise, Faults, WorldModel, WorldNoise};
 
@@ -39,6 +39,8 @@ pub struct Setup {
     pub predetermined: Control,
     /// The surface that is drawn: the mesh's or phantom's, or the features' own.
     pub drawn: Arc<Mesh>,
+    /// What is to be known of the file that the object was read from; part of the warnings.
+    pub object_notes: Vec<String>,
     /// What the user should know before running.
     pub warnings: Vec<String>,
     /// The scenario itself, for the planners' parameters.
@@ -54,7 +56,7 @@ impl Setup {
     pub fn new(scenario: &Scenario) -> Result<Self, InputError> {
         let object = RestObject::build(scenario)?;
         let (topology, drawn) = (Arc::new(object.topology), Arc::new(object.drawn));
-        Self::around(object.features, topology, drawn, scenario)
+        Self::around(object.features, topology, drawn, object.notes, scenario)
     }
 
     /// The setup of another scenario. Its object, where it is the same, is shared and not built again.
@@ -68,13 +70,15 @@ impl Setup {
         }
         let topology = Arc::clone(&self.planning.topology);
         let features = self.world.rest.clone();
-        Self::around(features, topology, Arc::clone(&self.drawn), scenario)
+        let notes = self.object_notes.clone();
+        Self::around(features, topology, Arc::clone(&self.drawn), notes, scenario)
     }
 
     fn around(
         features: Vec<Point3<f64>>,
         topology: Arc<Topology>,
         drawn: Arc<Mesh>,
+        object_notes: Vec<String>,
         scenario: &Scenario,
     ) -> Result<Self, InputError> {
         let noise = scenario.filter_noise();
@@ -121,7 +125,11 @@ impl Setup {
                 translation: *path.translation_cm,
             },
             drawn,
-            warnings: Vec::new(),
+            warnings: object_notes
+                .iter()
+                .map(|note| format!("{}: {note}", scenario.name))
+                .collect(),
+            object_notes,
             scenario: scenario.clone(),
         };
         setup.checked()
@@ -156,81 +164,6 @@ impl Setup {
             .iter()
             .map(|rest| self.known_motion.feature_motion(rest, n))
             .collect()
-    }
-
-    /// Looks at the start: a robot inside the object is refused; one too near, and features that
-    /// can never be seen, are worth a warning.
-    fn checked(mut self) -> Result<Self, InputError> {
-        let at_start: Vec<Point3<f64>> = self
-            .world
-            .rest
-            .iter()
-            .map(|p| p + self.world.motion.offset(p, 1))
-            .collect();
-        let surface = Surface::new(&self.planning.topology, &at_start)
-            .map_err(|error| blamed(&self.scenario, "object", &error))?;
-        let distance = surface.signed_distance(&self.world.start.position);
-        if distance <= 0.0 {
-            let message = format!(
-                "the robot starts {:.3} cm inside the object, where it can neither move nor see",
-                -distance
-            );
-            return Err(self
-                .scenario
-                .error_at("robot.start_cm", message)
-                .with_help("move the start, or the object, so that the robot is outside"));
-        }
-        self.check_viewpoints(&surface)?;
-        let clearance = self.planning.clearance;
-        if distance <= clearance {
-            self.warnings.push(format!(
-                "{}: the robot starts {distance:.3} cm from the object, nearer than its clearance \
-                 of {clearance} cm; it may have no safe action at first",
-                self.name
-            ));
-        }
-        let hidden = self.planning.topology.points_off_surface();
-        if !hidden.is_empty() {
-            self.warnings.push(format!(
-                "{}: features {} are not on the object's surface and will never be seen",
-                self.name,
-                numbers(hidden)
-            ));
-        }
-        Ok(self)
-    }
-}
-
-impl Setup {
-    /// A viewpoint inside the object cannot be visited.
-    fn check_viewpoints(&self, surface: &Surface) -> Result<(), InputError> {
-        let inside = |p: &Point3<f64>| surface.signed_distance(p) <= 0.0;
-        match &self.scenario.viewpoints {
-            Viewpoints::Fixed(fixed) => {
-                let Some(i) = fixed.positions_cm.iter().position(|p| inside(&p.point())) else {
-                    return Ok(());
-                };
-                let key = format!("viewpoints.fixed.positions_cm[{i}]");
-                Err(self
-                    .scenario
-                    .error_at(&key, "this viewpoint lies inside the object")
-                    .with_help("move it outside"))
-            }
-            Viewpoints::Sampled(grid) => {
-                let candidates = grid.candidates();
-                if !candidates.iter().all(inside) {
-                    return Ok(());
-                }
-                let message = format!(
-                    "none of the {} viewpoint candidates lies outside the object",
-                    candidates.len()
-                );
-                Err(self
-                    .scenario
-                    .error_at("viewpoints.sampled", message)
-                    .with_help("widen the grid, or make it finer"))
-            }
-        }
     }
 }
 
@@ -288,18 +221,4 @@ fn action_set(actions: &scenario::Actions) -> ActionSet {
         actions.max_roll_deg.to_radians(),
         actions.max_pitch_deg.to_radians(),
     )
-}
-
-/// A list of numbers for a message, cut where it gets long.
-pub(super) fn numbers(values: impl IntoIterator<Item = usize>) -> String {
-    const SHOWN: usize = 12;
-    let values: Vec<usize> = values.into_iter().collect();
-    let shown: Vec<String> = values.iter().take(SHOWN).map(ToString::to_string).collect();
-    let rest = values.len().saturating_sub(SHOWN);
-    let more = if rest == 0 {
-        String::new()
-    } else {
-        format!(" and {rest} more")
-    };
-    format!("{}{more}", shown.join(", "))
 }

@@ -12,7 +12,8 @@ use adslam_surface::Surface;
 use nalgebra::{Matrix6, Vector3};
 
 use super::name::RunName;
-use super::{Interrupt, Observer, RunHistory, Setup, StepView, build_planner};
+use super::watch::RunWatch;
+use super::{FilterInput, Interrupt, Observer, RunHistory, Setup, StepView, build_planner};
 use crate::ExperimentError;
 use crate::metrics::{DriftFloor, RunSummary, SummaryBuilder, measure_step};
 use crate::scenario::PlannerName;
@@ -23,7 +24,8 @@ use crate::world::World;
 pub struct RunOutcome {
     /// Its numbers.
     pub summary: RunSummary,
-    /// What its user should know, such as features that no viewpoint sees.
+    /// What its user should know, such as features that no viewpoint sees. What stands in brackets at the end of a
+    /// warning may differ from run to run.
     pub warnings: Vec<String>,
     /// Every step of it, where a [`Batch`](super::Batch) was to record it.
     pub history: Option<RunHistory>,
@@ -42,7 +44,7 @@ pub fn simulate(
     observer: &mut dyn Observer,
 ) -> Result<RunOutcome, ExperimentError> {
     let name = RunName(format!("{}, {planner}, seed {seed}", setup.name));
-    let (mut run, warnings) = Run::start(setup, name, planner, seed)?;
+    let (mut run, mut warnings) = Run::start(setup, name, planner, seed)?;
     run.observe(None, observer)?;
     for _ in 1..setup.steps {
         if interrupt.requested() {
@@ -51,6 +53,7 @@ pub fn simulate(
         let decided = run.advance()?;
         run.observe(Some(&decided), observer)?;
     }
+    warnings.extend(run.watch.warnings());
     Ok(RunOutcome {
         summary: run.builder.finish(seed),
         warnings,
@@ -68,6 +71,7 @@ struct Run<'a> {
     belief: Belief,
     planner: Box<dyn Planner>,
     builder: SummaryBuilder,
+    watch: RunWatch,
     drift_floor: DriftFloor,
     deadline_ms: Option<f64>,
 }
@@ -78,11 +82,31 @@ struct Sight {
     surface_distance: f64,
 }
 
-/// A decision and how long it took, ms.
+/// A decision, how long it took in ms, and what came of it.
 struct Decided {
     decision: Decision,
     milliseconds: f64,
+    feature_motion: Vec<Vector3<f64>>,
+    measured: Measured,
     update: UpdateReport,
+}
+
+/// What the filter is let know of a step's measurements.
+struct Measured {
+    features: Vec<FeatureMeasurement>,
+    structure_sums: Option<Vec<Vector3<f64>>>,
+}
+
+impl Measured {
+    fn measurements(&self) -> Measurements<'_> {
+        Measurements {
+            features: &self.features,
+            structure: match &self.structure_sums {
+                Some(sums) => StructureMeasurements::AllPairsSummed(sums),
+                None => StructureMeasurements::None,
+            },
+        }
+    }
 }
 
 impl<'a> Run<'a> {
@@ -100,6 +124,7 @@ impl<'a> Run<'a> {
         let belief = Belief::initial(setup.world.start, features, &Matrix6::zeros(), sigma)
             .map_err(name.filter_failed(1))?;
         let deadline_ms = setup.scenario.deadline_ms(planner);
+        let watch = RunWatch::new(setup, planner);
         let (planner, warnings) =
             build_planner(setup, planner, &belief, seed).map_err(name.planner_failed(1))?;
         let run = Self {
@@ -107,6 +132,7 @@ impl<'a> Run<'a> {
             sight: Sight::of(&world, setup, &name)?,
             builder: SummaryBuilder::new(world.features().len())
                 .with_faults(setup.world.faults.can_happen()),
+            watch,
             drift_floor: DriftFloor::at_start(&setup.world.noise, world.features().len()),
             name,
             world,
@@ -141,46 +167,52 @@ impl<'a> Run<'a> {
         self.world.advance(&decision.control);
         self.drift_floor.advance();
         self.sight = Sight::of(&self.world, self.setup, &self.name)?;
+        let measured = self.measure();
         let update = self
-            .filter(&decision.control, &feature_motion)
+            .filter(&decision.control, &feature_motion, &measured)
             .map_err(self.name.filter_failed(n + 1))?;
         Ok(Decided {
             decision,
             milliseconds,
+            feature_motion,
+            measured,
             update,
         })
     }
 
-    /// Algorithm 1, with what the world lets the robot measure.
-    fn filter(
-        &mut self,
-        control: &Control,
-        feature_motion: &[Vector3<f64>],
-    ) -> Result<UpdateReport, EstimatorError> {
-        let measured = self.world.measure(&self.sight.visible);
-        let features: Vec<FeatureMeasurement> = measured
+    /// What the world lets the robot measure, as far as the scenario lets the filter know it.
+    fn measure(&mut self) -> Measured {
+        let simulated = self.world.measure(&self.sight.visible);
+        let features: Vec<FeatureMeasurement> = simulated
             .features
             .iter()
             .map(|&(feature, z)| FeatureMeasurement { feature, z })
             .collect();
         self.sight.visible = features.iter().map(|measured| measured.feature).collect();
         let takes_structure = self.setup.planning.measures_structure;
-        let mut faults = measured.faults;
+        let mut faults = simulated.faults;
         if !takes_structure {
             faults.dropped_structures = 0;
         }
         self.builder.add_faults(faults);
-        let structure = match &measured.structure_sums {
-            Some(sums) if takes_structure => StructureMeasurements::AllPairsSummed(sums),
-            _ => StructureMeasurements::None,
-        };
-        let measurements = Measurements {
-            features: &features,
-            structure,
-        };
+        let structure_sums = simulated.structure_sums.filter(|_| takes_structure);
+        Measured {
+            features,
+            structure_sums,
+        }
+    }
+
+    /// Algorithm 1.
+    fn filter(
+        &mut self,
+        control: &Control,
+        feature_motion: &[Vector3<f64>],
+        measured: &Measured,
+    ) -> Result<UpdateReport, EstimatorError> {
         self.estimator
             .predict(&mut self.belief, control, feature_motion)?;
-        self.estimator.update(&mut self.belief, &measurements)
+        self.estimator
+            .update(&mut self.belief, &measured.measurements())
     }
 
     /// Adds the present step to the summary and shows it to the observer.
@@ -208,23 +240,30 @@ impl<'a> Run<'a> {
         self.builder.add_drift_floor(drift_floor);
         if let Some(decided) = decided {
             self.builder
-                .add_decision(decided.milliseconds, decided.decision.compromised);
+                .add_decision(decided.milliseconds, &decided.decision);
             self.builder.add_update(&decided.update);
         }
-        observer.step(&StepView {
+        let view = StepView {
             step,
             pose: world.pose(),
             features: world.features(),
             belief,
             visible: &sight.visible,
             metrics: &metrics,
+            input: decided.map(|decided| FilterInput {
+                control: &decided.decision.control,
+                feature_motion: &decided.feature_motion,
+                measurements: decided.measured.measurements(),
+            }),
             update: decided.map(|decided| &decided.update),
             drift_floor,
             surface_distance: sight.surface_distance,
             decision: decided.map(|decided| (&decided.decision, decided.milliseconds)),
             scores: self.planner.scores(),
             viewpoints: self.planner.viewpoints(),
-        })
+        };
+        self.watch.step(&view);
+        observer.step(&view)
     }
 }
 

@@ -155,6 +155,23 @@ impl Scenario {
         keys
     }
 
+    /// Every key with the value that holds, defaults included, as JSON: all that its runs depend on, but for the
+    /// content of a mesh file, of which only the name is there, without its folder. Descriptions are left out.
+    #[must_use]
+    pub fn effective(&self) -> serde_json::Value {
+        let mut keys = serde_json::to_value(self).unwrap_or_default();
+        if let Some(keys) = keys.as_object_mut() {
+            keys.remove("description");
+        }
+        if let (Object::Mesh(mesh), Some(file)) =
+            (&self.object, keys.pointer_mut("/object/mesh/file"))
+        {
+            let name = mesh.file.file_name().unwrap_or_default();
+            *file = name.to_string_lossy().into();
+        }
+        keys
+    }
+
     /// The scenario as text, overrides apart.
     pub(crate) fn document(&self) -> &Document {
         &self.document

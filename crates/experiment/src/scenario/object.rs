@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Named;
-use super::values::{FeatureCount, FeatureNumber, List, Seed, Spacing, Triple, Vec3};
+use super::values::{FeatureCount, FeatureNumber, List, NonNegative, Seed, Spacing, Triple, Vec3};
 
 /// Features picked from a mesh or a phantom unless the file says otherwise, as in the paper.
 const FEATURES: FeatureCount = FeatureCount::default_of(50);
@@ -63,6 +63,9 @@ pub struct Mesh {
     /// Unit of the file's coordinates.
     #[serde(default)]
     pub unit: LengthUnit,
+    /// Vertices that lie within this distance of each other are joined (cm); 0 joins equal ones only.
+    #[serde(default)]
+    pub join_within_cm: NonNegative,
     /// Roll, pitch and yaw by which the mesh is turned about its own origin (deg).
     #[serde(default)]
     pub rotation_deg: Vec3,
@@ -107,6 +110,8 @@ pub struct Phantom {
 pub struct MeshPlacement {
     /// Unit of the file's coordinates.
     pub unit: LengthUnit,
+    /// Vertices that lie within this distance of each other are joined (cm); 0 joins equal ones only.
+    pub join_within_cm: NonNegative,
     /// Roll, pitch and yaw by which the mesh is turned about its own origin (deg).
     pub rotation_deg: Vec3,
     /// Added to every vertex, after scaling and turning (world frame, cm).
@@ -171,6 +176,7 @@ impl Object {
             Self::Mesh(m) => {
                 let own = MeshPlacement {
                     unit: m.unit,
+                    join_within_cm: m.join_within_cm,
                     rotation_deg: m.rotation_deg,
                     offset_cm: m.offset_cm,
                 };
@@ -179,12 +185,14 @@ impl Object {
         };
         let MeshPlacement {
             unit,
+            join_within_cm,
             rotation_deg,
             offset_cm,
         } = placement.cloned().unwrap_or(own);
         Self::Mesh(Mesh {
             file,
             unit,
+            join_within_cm,
             rotation_deg,
             offset_cm,
             features,

@@ -59,6 +59,10 @@ pub struct Global {
     pub crossing_penalty_cm: NonNegative,
     /// A viewpoint is reached when the estimated position is this near to it (cm).
     pub reached_within_cm: Positive,
+    /// A viewpoint is given up for the next one after this many decisions in a row in which the robot has come no
+    /// nearer to it than it was before, by a hundredth of `reached_within_cm`.
+    #[serde(default = "give_up_after_steps")]
+    pub give_up_after_steps: Many,
 }
 
 /// The combined planner: as the local one, among the safe actions that lead nearest to the next
@@ -151,6 +155,10 @@ impl Named for PlannerName {
 
 fn samples() -> Many {
     Many::default_of(50)
+}
+
+fn give_up_after_steps() -> Many {
+    Many::default_of(20)
 }
 
 fn crossing_penalty() -> NonNegative {

@@ -26,7 +26,8 @@ pub struct Robot {
     /// Position at step 1, which has to be outside the object (world frame, cm).
     #[serde(default)]
     pub start_cm: Vec3,
-    /// Planners keep farther than this from the surface (cm).
+    /// Planners keep farther than this from the surface (cm). Where no action does, they take one whose way does not
+    /// cross it and that ends farthest from it; staying counts as one always.
     pub clearance_cm: NonNegative,
     /// What the planners choose from: all combinations of five lists.
     pub actions: Actions,
@@ -47,9 +48,11 @@ pub struct Actions {
     pub dx_cm: List<Finite>,
     /// Ways along z of the turned body (cm).
     pub dz_cm: List<Finite>,
-    /// An action that would take the roll beyond this, either way, is left out (degrees).
+    /// An action that would take the roll beyond this, either way, is left out, unless all would go beyond a limit
+    /// (degrees).
     pub max_roll_deg: NonNegative,
-    /// An action that would take the pitch beyond this, either way, is left out (degrees).
+    /// An action that would take the pitch beyond this, either way, is left out, unless all would go beyond a limit
+    /// (degrees).
     pub max_pitch_deg: NonNegative,
 }
 

@@ -16,7 +16,8 @@ pub enum Viewpoints {
     Fixed(Fixed),
 }
 
-/// Chosen in each run from the candidates of a grid, Algorithm 2; a block may be left out.
+/// Chosen in each run from the candidates of a grid, Algorithm 2; a block may be left out. So are candidates inside the
+/// object, and those that a robot that keeps its clearance cannot come as near to as `planners.global.reached_within_cm`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("dependencies" = {
@@ -43,7 +44,8 @@ pub struct Grid {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fixed {
-    /// The viewpoints in the order in which they are visited (world frame, cm).
+    /// The viewpoints in the order in which they are visited (world frame, cm). They have to be outside the object; of
+    /// those that cannot be reached for the robot's clearance there is a warning.
     pub positions_cm: List<Vec3>,
 }
 

@@ -52,11 +52,10 @@ impl MeanEstimate {
     #[must_use]
     pub fn of(values: &[f64]) -> Option<Self> {
         let interval = || {
-            let mut means = resampled_means(values, &mut generator(Draws::Bootstrap));
-            Interval {
-                low: nth_smallest(&mut means, TAIL),
-                high: nth_smallest(&mut means, RESAMPLES - 1 - TAIL),
-            }
+            central(&mut resampled_means(
+                values,
+                &mut generator(Draws::Bootstrap),
+            ))
         };
         (!values.is_empty()).then(|| Self {
             count: values.len(),
@@ -74,6 +73,14 @@ fn resampled_means(values: &[f64], generator: &mut impl Rng) -> Vec<f64> {
         draws.sum::<f64>() / values.len() as f64
     };
     (0..RESAMPLES).map(resampled_mean).collect()
+}
+
+/// Where [`BOOTSTRAP_CONFIDENCE`] of [`RESAMPLES`] values lie, as much left out below as above.
+pub(super) fn central(values: &mut [f64]) -> Interval {
+    Interval {
+        low: nth_smallest(values, TAIL),
+        high: nth_smallest(values, RESAMPLES - 1 - TAIL),
+    }
 }
 
 /// The value with `rank` smaller ones.

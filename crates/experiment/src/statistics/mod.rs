@@ -5,21 +5,28 @@
 
 mod bootstrap;
 pub mod chi_squared;
+mod few_runs;
 mod holm;
 mod paired;
+mod ranks;
+mod share;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha12Rng;
 
 pub use bootstrap::{BOOTSTRAP_CONFIDENCE, Interval, MeanEstimate, RESAMPLES};
+pub use few_runs::{Statistic, interval_of_few};
 pub use holm::holm;
-pub use paired::{MOST_ENUMERATED, PairedComparison, SIGN_FLIPS};
+pub use paired::{MOST_ENUMERATED, PairedComparison, SIGN_FLIPS, sign_flip_p};
+pub use ranks::RankComparison;
+pub use share::interval_of_share;
 
 /// What random numbers are for in the statistics; each purpose has a stream of its own.
 #[derive(Clone, Copy)]
 enum Draws {
     Bootstrap = 0,
     SignFlips = 1,
+    FewRuns = 2,
 }
 
 /// The generator of one purpose, always from its start.

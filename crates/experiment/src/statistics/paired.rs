@@ -33,14 +33,20 @@ impl PairedComparison {
     #[must_use]
     pub fn of(differences: &[f64]) -> Option<Self> {
         let difference = MeanEstimate::of(differences)?;
-        // Pairs that do not differ are the same with either sign.
-        let differing: Vec<f64> = differences.iter().copied().filter(|d| *d != 0.0).collect();
-        let p = if differing.len() <= MOST_ENUMERATED {
-            enumerated(&differing)
-        } else {
-            randomised(&differing)
-        };
+        let p = sign_flip_p(differences);
         Some(Self { difference, p })
+    }
+}
+
+/// The two-sided p-value of the sign-flip randomisation test, as of [`PairedComparison::of`]; 1 without differences.
+#[must_use]
+pub fn sign_flip_p(differences: &[f64]) -> f64 {
+    // Pairs that do not differ are the same with either sign.
+    let differing: Vec<f64> = differences.iter().copied().filter(|d| *d != 0.0).collect();
+    if differing.len() <= MOST_ENUMERATED {
+        enumerated(&differing)
+    } else {
+        randomised(&differing)
     }
 }
 

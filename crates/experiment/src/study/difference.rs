@@ -1,12 +1,6 @@
-//! How two plans differ, in words.
+//! How two values differ, in words.
 
 use serde_json::Value;
-
-/// The first place at which two values differ, such as "`points[2].steps` is 5 there and 7 here"; none if they
-/// are equal.
-pub(super) fn difference(there: &Value, here: &Value) -> Option<String> {
-    differs_below("", there, here)
-}
 
 fn differs_below(path: &str, there: &Value, here: &Value) -> Option<String> {
     match (there, here) {
@@ -33,7 +27,13 @@ fn differs_below(path: &str, there: &Value, here: &Value) -> Option<String> {
     }
 }
 
-fn differs_optionally(path: &str, there: Option<&Value>, here: Option<&Value>) -> Option<String> {
+/// The first place at or below `path` at which two values differ, such as "`points[2].steps` is 5 there and 7 here";
+/// none if they are equal.
+pub(super) fn differs_optionally(
+    path: &str,
+    there: Option<&Value>,
+    here: Option<&Value>,
+) -> Option<String> {
     match (there, here) {
         (Some(there), Some(here)) => differs_below(path, there, here),
         (Some(there), None) => {
@@ -68,9 +68,9 @@ mod tests {
         let changed = |pointer: &str, value: Value| {
             let mut here = there.clone();
             *here.pointer_mut(pointer).unwrap() = value;
-            difference(&there, &here)
+            differs_optionally("", Some(&there), Some(&here))
         };
-        assert_eq!(difference(&there, &there), None);
+        assert_eq!(differs_optionally("", Some(&there), Some(&there)), None);
         assert_eq!(
             changed("/points/1/set/steps", json!(7)).unwrap(),
             "`points[1].set.steps` is 6 there and 7 here"

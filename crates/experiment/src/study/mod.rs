@@ -6,13 +6,18 @@
 //! the same, byte for byte, however often the study was stopped and on however many threads it ran.
 //!
 //! The folder has `study.lock`, which the working process holds locked, `plan.json`, which says what the study
-//! is, and `records/`.
+//! is and which builds have worked on it, and `records/`. A study may grow: by runs, points and planners.
 
+mod content;
 mod difference;
 mod folder;
+mod kept;
 mod plan;
 pub(crate) mod points;
 mod record;
+mod refusal;
+mod results;
+mod summary;
 #[cfg(test)]
 mod tests;
 
@@ -23,9 +28,11 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-pub use plan::{StudyPlan, StudyUnit};
+pub use plan::{StudyPlan, StudyPoint, StudyUnit};
+pub use summary::SummaryRecord;
 
 use crate::ExperimentError;
+use crate::provenance::BuildRuns;
 use crate::run::{Interrupt, Progress};
 use folder::StudyFolder;
 use record::{RecordFile, encode};
@@ -36,6 +43,18 @@ pub struct Study<'a, R> {
     folder: StudyFolder,
     units: Vec<StudyUnit<'a>>,
     records: Vec<Option<R>>,
+    /// The number of the build that did each unit, among those of the folder.
+    builds: Vec<Option<usize>>,
+}
+
+/// Whether a folder may hold runs of other builds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OtherBuilds {
+    /// Their runs may differ from those that this build would do: they are refused.
+    #[default]
+    Refuse,
+    /// The user takes them for the same.
+    Accept,
 }
 
 /// How the work on a study ended.
@@ -68,27 +87,33 @@ enum Outcome<R> {
 }
 
 impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
-    /// Begins the study of `plan` in `folder`, or goes on with it: locks the folder, makes sure that it holds
-    /// no other study, reads the records that are there, and removes what a killed process left half-written.
+    /// Begins the study of `plan` in `folder`, goes on with it, or lets it grow to `plan`: locks the folder, makes
+    /// sure that it holds nothing that is not in `plan`, reads the records that are there, removes what a killed
+    /// process left half-written, and writes down what the study has become.
     ///
     /// # Errors
     /// [`InputError`](crate::diagnostics::InputError) where another process works in the folder, where it holds
-    /// another study, where a record is damaged or foreign, and where it cannot be written to; nothing of what
-    /// is there is changed then, but for the lock's file. [`ExperimentError::Output`] where the plan cannot be
-    /// written.
-    pub fn open(folder: &Path, plan: StudyPlan<'a>) -> Result<Self, ExperimentError> {
-        let folder = StudyFolder::lock(folder, &plan)?;
-        let units = plan.units;
-        let records: Vec<_> = units
+    /// another study, runs that are not in the plan, or runs of another build, where a record is damaged or
+    /// foreign, and where it cannot be written to; nothing of what is there is changed then, but for the lock's
+    /// file. [`ExperimentError::Output`] where the plan cannot be written.
+    pub fn open(
+        folder: &Path,
+        plan: &StudyPlan<'a>,
+        other_builds: OtherBuilds,
+    ) -> Result<Self, ExperimentError> {
+        let (folder, units) = StudyFolder::lock(folder, plan, other_builds)?;
+        let read: Vec<_> = units
             .par_iter()
             .map(|unit| folder.record(unit).read())
             .collect();
-        let records = records.into_iter().collect::<Result<_, _>>()?;
+        let read = read.into_iter().collect::<Result<Vec<Option<_>>, _>>()?;
+        let (records, builds) = read.into_iter().map(Option::unzip).unzip();
         folder.prepare()?;
         Ok(Self {
             folder,
             units,
             records,
+            builds,
         })
     }
 
@@ -102,6 +127,17 @@ impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
     #[must_use]
     pub fn records(&self) -> &[Option<R>] {
         &self.records
+    }
+
+    /// How many units each build has done; builds that have done none are left out.
+    #[must_use]
+    pub fn builds(&self) -> Vec<BuildRuns> {
+        let of = self.folder.builds().iter().enumerate();
+        let of = of.map(|(number, build)| BuildRuns {
+            build: build.clone(),
+            runs: self.builds.iter().filter(|by| **by == Some(number)).count(),
+        });
+        of.filter(|of| of.runs > 0).collect()
     }
 
     /// How many units have been done.
@@ -141,7 +177,8 @@ impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
                     return Outcome::Stopped;
                 }
                 let unit = &units[index];
-                let outcome = done(&folder.record(unit), unit, || work(unit, interrupt));
+                let (file, build) = (folder.record(unit), folder.build());
+                let outcome = done(&file, build, unit, || work(unit, interrupt));
                 match &outcome {
                     Outcome::Done(_) | Outcome::Failed(_) => progress(),
                     Outcome::NotWritten(_) => cannot_write.store(true, Ordering::Relaxed),
@@ -154,7 +191,10 @@ impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
         let mut not_written = None;
         for (index, outcome) in missing.into_iter().zip(outcomes) {
             match outcome {
-                Outcome::Done(record) => self.records[index] = Some(record),
+                Outcome::Done(record) => {
+                    self.records[index] = Some(record);
+                    self.builds[index] = Some(self.folder.build());
+                }
                 Outcome::Failed(reason) => end.failures.push(reason),
                 Outcome::Stopped => end.interrupted = true,
                 Outcome::NotWritten(error) => not_written = not_written.or(Some(error)),
@@ -168,10 +208,14 @@ impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
 /// depend on when it was written.
 fn done<R: Serialize + DeserializeOwned>(
     file: &RecordFile<'_>,
+    build: usize,
     unit: &StudyUnit<'_>,
     work: impl FnOnce() -> Result<R, ExperimentError>,
 ) -> Outcome<R> {
-    let failed = |reason: String| Outcome::Failed(format!("[{}] {reason}", unit.key()));
+    let failed = |reason: String| {
+        let name = unit.label.map_or_else(|| unit.key(), str::to_owned);
+        Outcome::Failed(format!("[{name}] {reason}"))
+    };
     let record = match work() {
         Ok(record) => record,
         Err(ExperimentError::Interrupted) => return Outcome::Stopped,
@@ -179,7 +223,7 @@ fn done<R: Serialize + DeserializeOwned>(
         Err(error) => return failed(error.to_string()),
     };
     match encode(&record) {
-        Ok((json, record)) => match file.write(&json) {
+        Ok((json, record)) => match file.write(&json, build) {
             Ok(()) => Outcome::Done(record),
             Err(error) => Outcome::NotWritten(error),
         },

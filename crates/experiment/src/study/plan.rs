@@ -1,61 +1,73 @@
-//! What a study does, and how it is told from others.
-
-use serde_json::{Map, Value, json};
+//! What a study does.
 
 use crate::run::Setup;
 use crate::scenario::PlannerName;
 
+/// A point of a study: where, and by which planners.
+#[derive(Clone, Copy, Debug)]
+pub struct StudyPoint<'a> {
+    /// Where. All that its runs depend on is its scenario, every key with the value that holds, and its object.
+    pub setup: &'a Setup,
+    /// By which planners, each once.
+    pub planners: &'a [PlannerName],
+    /// What failures are told by, if not by the name of the record.
+    pub label: Option<&'a str>,
+}
+
 /// One run of a study.
 #[derive(Clone, Copy, Debug)]
 pub struct StudyUnit<'a> {
-    /// The number, from 0, of what is varied over the study: a point of a sweep, say.
+    /// Its point, from 0, in the order of the plan.
     pub point: usize,
+    /// The number of its point in the study's folder, from 1: points keep theirs when others are added.
+    pub number: usize,
     /// Where.
     pub setup: &'a Setup,
     /// By which planner.
     pub planner: PlannerName,
     /// With which noise.
     pub seed: u64,
+    /// That of its point.
+    pub label: Option<&'a str>,
 }
 
 impl StudyUnit<'_> {
-    /// What its record is called: the number of its point from 1, planner and seed, such as
-    /// `0007-combined-seed3`.
+    /// What its record is called: the number of its point, planner and seed, such as `0007-combined-seed3`.
     #[must_use]
     pub fn key(&self) -> String {
-        format!("{:04}-{}-seed{}", self.point + 1, self.planner, self.seed)
+        format!("{:04}-{}-seed{}", self.number, self.planner, self.seed)
     }
 }
 
-/// What a study does.
+/// What a study does: every planner of every point at the same seeds.
 #[derive(Clone, Debug)]
 pub struct StudyPlan<'a> {
     /// What kind of study it is, in a word, such as "sweep".
     pub kind: &'static str,
-    /// All that the records depend on, by name. A folder whose study differs in any of it is refused, and the
-    /// difference named, so the names should be those that the user knows. An object may change while its
-    /// file keeps its name: see [`Setup::object_checksum`].
-    pub identity: Map<String, Value>,
-    /// The runs. No two may have the same point, planner and seed.
-    pub units: Vec<StudyUnit<'a>>,
+    /// The points.
+    pub points: Vec<StudyPoint<'a>>,
+    /// The seed of the first run of each planner at each point.
+    pub first_seed: u64,
+    /// How many runs that are, their seeds counted up from the first.
+    pub runs: usize,
 }
 
-impl StudyPlan<'_> {
-    /// The content of plan.json.
-    pub(super) fn to_json(&self) -> Value {
-        let mut plan = json!({
-            "format": FORMAT,
-            "version": 1,
-            "program": concat!("adslam ", env!("CARGO_PKG_VERSION")),
-            "kind": self.kind,
-            "units": self.units.len(),
+impl<'a> StudyPlan<'a> {
+    /// The runs: point by point, planner by planner, seed by seed, for points that have these numbers.
+    pub(crate) fn units(&self, numbers: &[usize]) -> Vec<StudyUnit<'a>> {
+        let points = self.points.iter().zip(numbers).enumerate();
+        let units = points.flat_map(|(point, (at, &number))| {
+            at.planners.iter().flat_map(move |&planner| {
+                (0..self.runs as u64).map(move |run| StudyUnit {
+                    point,
+                    number,
+                    setup: at.setup,
+                    planner,
+                    seed: self.first_seed.wrapping_add(run),
+                    label: at.label,
+                })
+            })
         });
-        if let Value::Object(plan) = &mut plan {
-            plan.extend(self.identity.clone());
-        }
-        plan
+        units.collect()
     }
 }
-
-/// What plan.json says it is.
-pub(super) const FORMAT: &str = "adslam-study";

@@ -9,8 +9,10 @@ use super::folder::checksum;
 use crate::ExperimentError;
 use crate::diagnostics::{InputError, is_there, read_text};
 use crate::output::AtomicFile;
+use crate::provenance::Build;
 
 const FORMAT: &str = "adslam-record";
+const VERSION: u32 = 2;
 /// Larger records are not ours: a million steps in a dozen numbers take some hundred megabytes.
 const LARGEST_RECORD: u64 = 1 << 30;
 
@@ -19,9 +21,11 @@ const LARGEST_RECORD: u64 = 1 << 30;
 struct Header {
     format: String,
     version: u32,
-    /// Checksum of the study's plan.
-    study: String,
     unit: String,
+    /// Checksum of all that the run depends on.
+    identity: String,
+    #[serde(flatten)]
+    build: Build,
     /// Of the second line.
     crc32: String,
 }
@@ -29,8 +33,10 @@ struct Header {
 /// Where the record of a unit lies, or will.
 pub(super) struct RecordFile<'a> {
     path: PathBuf,
-    study: &'a str,
+    identity: String,
     unit: String,
+    /// What may have written it.
+    builds: &'a [Build],
 }
 
 /// The record as a line of JSON, and as it is read back from that.
@@ -44,12 +50,13 @@ where
 }
 
 impl<'a> RecordFile<'a> {
-    /// Of a unit, in the folder of the records of a study.
-    pub(super) fn new(folder: &Path, study: &'a str, unit: String) -> Self {
+    /// Of a unit that depends on what `identity` is the checksum of, in the folder of the records of a study.
+    pub(super) fn new(folder: &Path, identity: String, unit: String, builds: &'a [Build]) -> Self {
         Self {
             path: folder.join(Self::name(&unit)),
-            study,
+            identity,
             unit,
+            builds,
         }
     }
 
@@ -58,13 +65,14 @@ impl<'a> RecordFile<'a> {
         format!("{unit}.jsonl")
     }
 
-    /// Writes the record, given as a line of JSON.
-    pub(super) fn write(&self, json: &str) -> Result<(), ExperimentError> {
+    /// Writes the record, given as a line of JSON, of one of the builds.
+    pub(super) fn write(&self, json: &str, build: usize) -> Result<(), ExperimentError> {
         let header = Header {
             format: FORMAT.to_owned(),
-            version: 1,
-            study: self.study.to_owned(),
+            version: VERSION,
             unit: self.unit.clone(),
+            identity: self.identity.clone(),
+            build: self.builds[build].clone(),
             crc32: checksum(json.as_bytes()),
         };
         let mut file = AtomicFile::create(&self.path)?;
@@ -74,8 +82,8 @@ impl<'a> RecordFile<'a> {
         file.commit()
     }
 
-    /// Reads the record; none if there is none yet.
-    pub(super) fn read<R: DeserializeOwned>(&self) -> Result<Option<R>, InputError> {
+    /// Reads the record, and the number of its build; none if there is none yet.
+    pub(super) fn read<R: DeserializeOwned>(&self) -> Result<Option<(R, usize)>, InputError> {
         if !is_there(&self.path)? {
             return Ok(None);
         }
@@ -86,10 +94,10 @@ impl<'a> RecordFile<'a> {
             .ok_or_else(|| self.damaged("it is cut short"))?;
         let header: Header = serde_json::from_str(header)
             .map_err(|error| self.damaged(&format!("its first line: {error}")))?;
-        if header.format != FORMAT || header.version != 1 {
+        if header.format != FORMAT || header.version != VERSION {
             return Err(self.damaged("its first line is not that of a record of this version"));
         }
-        if header.study != self.study || header.unit != self.unit {
+        if header.identity != self.identity || header.unit != self.unit {
             let message = format!("{} is a record of another study", self.path.display());
             return Err(
                 InputError::about_file(&self.path, message).with_help(format!(
@@ -101,8 +109,15 @@ impl<'a> RecordFile<'a> {
         if header.crc32 != checksum(record.as_bytes()) {
             return Err(self.damaged("its checksum is wrong"));
         }
+        let known = self.builds.iter().position(|known| *known == header.build);
+        let Some(build) = known else {
+            let (path, build) = (self.path.display(), header.build);
+            let message = format!("{path} was made by another build: {build}");
+            return Err(InputError::about_file(&self.path, message)
+                .with_help(self.remedy("move it out of the folder")));
+        };
         serde_json::from_str(record)
-            .map(Some)
+            .map(|record| Some((record, build)))
             .map_err(|error| self.damaged(&format!("its second line: {error}")))
     }
 

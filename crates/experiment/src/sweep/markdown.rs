@@ -6,8 +6,10 @@ use comfy_table::{CellAlignment, Table, presets};
 use serde_json::Value;
 
 use super::SweepResults;
-use super::point::Comparison;
-use crate::statistics::{BOOTSTRAP_CONFIDENCE, MeanEstimate};
+use super::metrics::{SEES_ALL, STEPS_TO_SEE_ALL};
+use super::point::{Comparison, Tested};
+use crate::provenance::remark;
+use crate::statistics::{BOOTSTRAP_CONFIDENCE, MeanEstimate, RankComparison};
 
 /// A metric that people are shown.
 struct Shown {
@@ -17,7 +19,7 @@ struct Shown {
     digits: usize,
 }
 
-const SHOWN: [Shown; 7] = [
+const SHOWN: [Shown; 8] = [
     Shown {
         metric: "relative_pose_error_mean",
         title: "Object-relative pose error, mean over the steps (cm, rad)",
@@ -44,8 +46,13 @@ const SHOWN: [Shown; 7] = [
         digits: 1,
     },
     Shown {
-        metric: "steps_to_full_coverage",
-        title: "Steps to see all features, of the runs that do",
+        metric: SEES_ALL,
+        title: "Share of the runs that see all features",
+        digits: 2,
+    },
+    Shown {
+        metric: STEPS_TO_SEE_ALL,
+        title: "Steps to see all features, mean of the runs that do",
         digits: 1,
     },
     Shown {
@@ -70,12 +77,16 @@ pub(super) fn markdown(results: &SweepResults<'_>) -> String {
     let _ = writeln!(
         text,
         "Each planner at each point of `{}` with the seeds {} to {last_seed}. In each cell: the mean, and in \
-         brackets its {} % bootstrap interval. Differences are taken between runs of the same seed; their p-values \
-         come from sign-flip randomisation tests, by Holm's method corrected for the pairs of planners at a point.\n",
+         brackets its {} % bootstrap interval; of shares of runs, that of Clopper and Pearson. Differences are taken between runs of the same seed; their p-values \
+         come from sign-flip randomisation tests (of ranks for the steps to see all, where a run that never does is \
+         last), by Holm's method corrected for the pairs of planners at a point.\n",
         sweep.scenario.name,
         sweep.first_seed,
         BOOTSTRAP_CONFIDENCE * 100.0,
     );
+    if let Some(remark) = remark(&results.builds) {
+        let _ = writeln!(text, "{remark}\n");
+    }
     text += &too_few_runs(results);
     text += &legend(results);
     for shown in &SHOWN {
@@ -152,6 +163,9 @@ fn means(results: &SweepResults<'_>, metric: usize, digits: usize) -> Table {
             let mean = planner.means[metric].as_ref();
             let text = mean.map_or("–".to_owned(), |mean| estimate(mean, digits));
             match mean.map_or(0, |mean| mean.count) {
+                count if count < planner.done && results.metrics[metric] == STEPS_TO_SEE_ALL => {
+                    format!("{text}, {} of {} never", planner.done - count, planner.done)
+                }
                 count if count < planner.done => {
                     format!("{text}, {count} of {} runs", planner.done)
                 }
@@ -169,7 +183,13 @@ fn differences(results: &SweepResults<'_>, metric: usize, digits: usize) -> Stri
     if planners.len() < 2 {
         return String::new();
     }
-    let heads = ["planners", "mean difference", "p (Holm)"];
+    let by_ranks = results.metrics[metric] == STEPS_TO_SEE_ALL;
+    let what = if by_ranks {
+        "sooner, later, alike"
+    } else {
+        "mean difference"
+    };
+    let heads = ["planners", what, "p (Holm)"];
     let mut table = started(results, heads.map(ToOwned::to_owned));
     let (mut listed, mut compared) = (0, 0);
     for (index, point) in results.points.iter().enumerate() {
@@ -187,7 +207,7 @@ fn differences(results: &SweepResults<'_>, metric: usize, digits: usize) -> Stri
             listed += 1;
             let cells = [
                 format!("{} − {}", planners[*first], planners[*second]),
-                estimate(&result.paired.difference, digits),
+                shown_difference(&result.tested, by_ranks, digits),
                 format!("{:.5}", result.p_holm),
             ];
             table.add_row(point_cells(results, index).into_iter().chain(cells));
@@ -199,6 +219,20 @@ fn differences(results: &SweepResults<'_>, metric: usize, digits: usize) -> Stri
     match listed {
         0 => format!("{said}.\n\n"),
         _ => format!("{said}:\n\n{}\n\n", aligned(table, results)),
+    }
+}
+
+/// The mean difference or, where never is last, how often the first of the two is sooner, later and neither.
+fn shown_difference(tested: &Tested, by_ranks: bool, digits: usize) -> String {
+    let RankComparison {
+        smaller,
+        larger,
+        equal,
+        ..
+    } = tested.ranks;
+    match &tested.difference {
+        Some(difference) if !by_ranks => estimate(difference, digits),
+        _ => format!("{smaller}, {larger}, {equal}"),
     }
 }
 

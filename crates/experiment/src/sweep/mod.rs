@@ -17,5 +17,5 @@ mod tests;
 pub(crate) use file::SweepFile;
 pub use file::{Sweep, SweepPoint};
 pub use places::MOST_POINTS;
-pub use plan::{SweepPlan, SweepRecord};
+pub use plan::SweepPlan;
 pub use results::SweepResults;

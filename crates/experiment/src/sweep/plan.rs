@@ -2,18 +2,12 @@
 
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
-
 use super::Sweep;
 use crate::ExperimentError;
 use crate::config::checked_runs;
 use crate::diagnostics::InputError;
-use crate::metrics::RunSummary;
-use crate::run::{Interrupt, NoObserver, Setup, simulate};
-use crate::scenario::Named;
-use crate::study::points::{self, Point};
-use crate::study::{Study, StudyPlan, StudyUnit};
+use crate::run::Setup;
+use crate::study::{OtherBuilds, Study, StudyPlan, StudyPoint, SummaryRecord, points};
 
 /// A sweep made ready to run: the object of every point built.
 #[derive(Debug)]
@@ -22,16 +16,6 @@ pub struct SweepPlan {
     pub(super) runs: usize,
     /// Of the points, in their order.
     pub(super) setups: Vec<Setup>,
-}
-
-/// What is kept of a run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SweepRecord {
-    /// Its numbers.
-    pub summary: RunSummary,
-    /// What the user should know of it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub warnings: Vec<String>,
 }
 
 impl SweepPlan {
@@ -82,72 +66,35 @@ impl SweepPlan {
     }
 
     /// Every point with its planners.
-    fn points(&self) -> impl Iterator<Item = Point<'_>> + Clone {
+    fn points(&self) -> impl Iterator<Item = StudyPoint<'_>> + Clone {
         let planners = self.sweep.planners.as_slice();
-        self.setups.iter().map(move |setup| (setup, planners))
+        let point = move |setup| StudyPoint {
+            setup,
+            planners,
+            label: None,
+        };
+        self.setups.iter().map(point)
     }
 
-    /// Begins the sweep in `folder`, or goes on with it.
+    /// Begins the sweep in `folder`, goes on with it, or lets it grow.
     ///
     /// # Errors
     /// As [`Study::open`].
-    pub fn open(&self, folder: &Path) -> Result<Study<'_, SweepRecord>, ExperimentError> {
-        Study::open(folder, self.study())
-    }
-
-    /// Does one run: the work of the sweep's study.
-    ///
-    /// # Errors
-    /// As [`simulate`].
-    pub fn run(
-        unit: &StudyUnit<'_>,
-        interrupt: &Interrupt,
-    ) -> Result<SweepRecord, ExperimentError> {
-        let outcome = simulate(
-            unit.setup,
-            unit.planner,
-            unit.seed,
-            interrupt,
-            &mut NoObserver,
-        )?;
-        Ok(SweepRecord {
-            summary: outcome.summary,
-            warnings: outcome.warnings,
-        })
+    pub fn open(
+        &self,
+        folder: &Path,
+        other_builds: OtherBuilds,
+    ) -> Result<Study<'_, SummaryRecord>, ExperimentError> {
+        Study::open(folder, &self.study(), other_builds)
     }
 
     /// The runs: point by point, planner by planner, seed by seed.
     fn study(&self) -> StudyPlan<'_> {
         StudyPlan {
             kind: "sweep",
-            identity: self.identity(),
-            units: points::units(self.points(), self.sweep.first_seed, self.runs),
+            points: self.points().collect(),
+            first_seed: self.sweep.first_seed,
+            runs: self.runs,
         }
-    }
-
-    fn identity(&self) -> Map<String, Value> {
-        let points = self.sweep.points.iter().zip(&self.setups);
-        let points: Vec<Value> = points
-            .map(|(point, setup)| {
-                json!({ "set": point.overrides, "object_crc32": setup.object_checksum() })
-            })
-            .collect();
-        let planners: Vec<&str> = self
-            .sweep
-            .planners
-            .iter()
-            .map(|planner| planner.as_str())
-            .collect();
-        let parts = [
-            ("runs", json!(self.runs)),
-            ("first_seed", json!(self.sweep.first_seed)),
-            ("planners", json!(planners)),
-            ("scenario", self.sweep.scenario.keys()),
-            ("points", json!(points)),
-        ];
-        parts
-            .map(|(name, value)| (name.to_owned(), value))
-            .into_iter()
-            .collect()
     }
 }

@@ -7,17 +7,20 @@ use serde_json::{Value, json};
 
 use super::metrics::metrics;
 use super::point::{PlannerMetrics, PointStatistics};
-use super::{SweepPlan, SweepRecord, markdown};
+use super::{SweepPlan, markdown};
 use crate::ExperimentError;
 use crate::output::{AtomicFile, Column, ColumnKind, TableFile};
+use crate::provenance::BuildRuns;
+use crate::run::warnings::merged;
 use crate::scenario::Named;
-use crate::statistics::MeanEstimate;
-use crate::study::points::distinct;
+use crate::statistics::{MeanEstimate, RankComparison};
+use crate::study::SummaryRecord;
 
 /// What a sweep gave: made of its records alone, the same whenever and in whatever order they were written.
 pub struct SweepResults<'a> {
     pub(super) plan: &'a SweepPlan,
-    records: &'a [Option<SweepRecord>],
+    records: &'a [Option<SummaryRecord>],
+    pub(super) builds: Vec<BuildRuns>,
     /// The names of all metrics.
     pub(super) metrics: Vec<String>,
     /// For each point.
@@ -25,9 +28,15 @@ pub struct SweepResults<'a> {
 }
 
 impl<'a> SweepResults<'a> {
-    /// Of the records of a plan's study, in its order.
+    /// Of the records of a plan's study, in its order, and what made them, as [`Study::builds`] says.
+    ///
+    /// [`Study::builds`]: crate::study::Study::builds
     #[must_use]
-    pub fn new(plan: &'a SweepPlan, records: &'a [Option<SweepRecord>]) -> Self {
+    pub fn new(
+        plan: &'a SweepPlan,
+        records: &'a [Option<SummaryRecord>],
+        builds: Vec<BuildRuns>,
+    ) -> Self {
         let first = records.iter().flatten().next();
         let metrics: Vec<String> = first
             .map(|record| metrics(&record.summary).keys().cloned().collect())
@@ -42,6 +51,7 @@ impl<'a> SweepResults<'a> {
         Self {
             plan,
             records,
+            builds,
             metrics,
             points,
         }
@@ -60,7 +70,7 @@ impl<'a> SweepResults<'a> {
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let done = self.records.iter().flatten();
-        distinct(done.flat_map(|record| record.warnings.iter().cloned()))
+        merged(done.map(|record| record.warnings.as_slice()))
     }
 
     /// Writes all tables into `folder` and returns their paths: runs, table and comparisons in the formats of
@@ -141,7 +151,8 @@ impl<'a> SweepResults<'a> {
         let mut columns = self.columns_of_points();
         columns
             .extend(["metric", "planner", "other"].map(|name| Column::new(name, ColumnKind::Text)));
-        columns.push(Column::new("pairs", ColumnKind::Integer));
+        let counts = ["pairs", "smaller", "larger", "equal", "difference_count"];
+        columns.extend(counts.map(|name| Column::new(name, ColumnKind::Integer)));
         columns.extend(["mean", "low", "high"].map(|what| number("difference_", what)));
         columns.extend(["p", "p_holm"].map(|name| number(name, "")));
         let mut table = TableFile::create(folder, "comparisons", columns)?;
@@ -150,16 +161,24 @@ impl<'a> SweepResults<'a> {
             for (metric, comparisons) in self.metrics.iter().zip(&point.comparisons) {
                 for comparison in comparisons {
                     let result = comparison.result.as_ref();
-                    let difference = result.map(|result| &result.paired.difference);
+                    let tested = result.map(|result| &result.tested);
+                    let difference = tested.and_then(|tested| tested.difference.as_ref());
+                    let count = |of: fn(&RankComparison) -> usize| {
+                        json!(tested.map_or(0, |tested| of(&tested.ranks)))
+                    };
                     let mut row = self.cells_of_point(index);
                     row.extend([
                         json!(metric),
                         planner(comparison.first),
                         planner(comparison.second),
+                        count(|ranks| ranks.smaller + ranks.larger + ranks.equal),
+                        count(|ranks| ranks.smaller),
+                        count(|ranks| ranks.larger),
+                        count(|ranks| ranks.equal),
                         json!(difference.map_or(0, |mean| mean.count)),
                     ]);
                     row.extend(cells_of_mean(difference));
-                    row.push(json!(result.map(|result| result.paired.p)));
+                    row.push(json!(tested.map(|tested| tested.p)));
                     row.push(json!(result.map(|result| result.p_holm)));
                     table.add(row)?;
                 }
@@ -198,8 +217,8 @@ impl<'a> SweepResults<'a> {
     }
 }
 
-fn of_planner(runs: &[Option<SweepRecord>]) -> PlannerMetrics {
-    let of_run = |record: &Option<SweepRecord>| Some(metrics(&record.as_ref()?.summary));
+fn of_planner(runs: &[Option<SummaryRecord>]) -> PlannerMetrics {
+    let of_run = |record: &Option<SummaryRecord>| Some(metrics(&record.as_ref()?.summary));
     runs.iter().map(of_run).collect()
 }
 

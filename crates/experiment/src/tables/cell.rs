@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use super::{Agreement, Spread};
+use super::{Agreement, Comparison, Spread};
+use crate::statistics::Interval;
 
 /// A published value, if there is one, and ours.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,9 +12,9 @@ pub struct ResultCell {
     pub published: Option<CellValue>,
     /// Ours.
     pub ours: CellValue,
-    /// How well they agree; none where they cannot be compared. The value of a single published
-    /// run is compared with all our runs, as theirs had other noise.
-    pub agreement: Option<Agreement>,
+    /// How they compare; none where they cannot be compared. The value of a single published run is compared with
+    /// all our runs, as theirs had other noise.
+    pub comparison: Option<Comparison>,
 }
 
 /// What stands in a cell. It is displayed as in the tables.
@@ -29,6 +30,8 @@ pub enum CellValue {
         some: usize,
         /// Of how many.
         all: usize,
+        /// Where the chance of it lies, if that is shown.
+        interval: Option<Interval>,
     },
     /// A number with its decimals.
     Number {
@@ -44,6 +47,13 @@ pub enum CellValue {
         /// Decimals shown.
         digits: usize,
     },
+    /// The steps at which several runs reached something that others never did.
+    Steps {
+        /// Mean and range of those that did.
+        spread: Spread,
+        /// How many never did.
+        never: usize,
+    },
 }
 
 impl fmt::Display for CellValue {
@@ -51,9 +61,20 @@ impl fmt::Display for CellValue {
         match *self {
             Self::Absent => f.write_str("-"),
             Self::Count(count) => write!(f, "{count}"),
-            Self::Share { some, all } => write!(f, "{some} of {all}"),
+            Self::Share {
+                some,
+                all,
+                interval,
+            } => {
+                write!(f, "{some} of {all}")?;
+                interval.map_or(Ok(()), |Interval { low, high }| {
+                    write!(f, " ({:.0}–{:.0} %)", 100.0 * low, 100.0 * high)
+                })
+            }
             Self::Number { value, digits } => write!(f, "{value:.digits$}"),
             Self::Spread { spread, digits } => write!(f, "{spread:.digits$}"),
+            Self::Steps { spread, never: 0 } => write!(f, "{spread:.0}"),
+            Self::Steps { spread, never } => write!(f, "{spread:.0}, {never} never"),
         }
     }
 }
@@ -67,6 +88,22 @@ impl CellValue {
         Spread::of(values).map_or(Self::Absent, |spread| Self::Spread { spread, digits })
     }
 
+    /// Of a step of each run, none of one that never came to it.
+    pub(super) fn of_steps(steps: impl Iterator<Item = Option<usize>> + Clone) -> Self {
+        let never = steps.clone().filter(Option::is_none).count();
+        let reached = Spread::of(steps.flatten().map(|step| step as f64));
+        reached.map_or(Self::Absent, |spread| Self::Steps { spread, never })
+    }
+
+    /// Mean and range of several.
+    #[must_use]
+    pub const fn spread(&self) -> Option<Spread> {
+        match *self {
+            Self::Spread { spread, .. } | Self::Steps { spread, .. } => Some(spread),
+            _ => None,
+        }
+    }
+
     /// The number, or the mean of several; none for shares and where nothing is.
     #[must_use]
     pub fn mean(&self) -> Option<f64> {
@@ -74,34 +111,23 @@ impl CellValue {
             Self::Absent | Self::Share { .. } => None,
             Self::Count(count) => Some(count as f64),
             Self::Number { value, .. } => Some(value),
-            Self::Spread { spread, .. } => Some(spread.mean),
+            Self::Spread { spread, .. } | Self::Steps { spread, .. } => Some(spread.mean),
         }
     }
 }
 
 impl ResultCell {
-    /// Compared as what they are.
-    pub(super) fn new(published: Option<CellValue>, ours: CellValue) -> Self {
-        Self::judged(published, ours, ours)
+    /// How well they agree, in a word.
+    #[must_use]
+    pub fn agreement(&self) -> Option<Agreement> {
+        self.comparison?.agreement
     }
 
-    /// Compared with `judge` in place of ours.
-    pub(super) fn judged(published: Option<CellValue>, ours: CellValue, judge: CellValue) -> Self {
-        let share = |some: usize, all: usize| some as f64 / all.max(1) as f64;
-        let agreement = published.and_then(|published| match (published, judge) {
-            (CellValue::Absent, CellValue::Absent) => Some(Agreement::Agrees),
-            (CellValue::Share { some, all }, CellValue::Share { some: s, all: a }) => {
-                Some(Agreement::of_shares(share(some, all), share(s, a)))
-            }
-            (published, CellValue::Spread { spread, .. }) => published
-                .mean()
-                .map(|value| Agreement::of_spread(value, spread)),
-            _ => None,
-        });
-        Self {
-            published,
-            ours,
-            agreement,
-        }
+    /// Ours over the published value, such as "0.93×".
+    #[must_use]
+    pub fn ratio(&self) -> Option<String> {
+        let ratio = self.comparison?.ratio?;
+        let digits = if ratio < 10.0 { 2 } else { 0 };
+        Some(format!("{ratio:.digits$}×"))
     }
 }

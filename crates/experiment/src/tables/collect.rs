@@ -1,37 +1,13 @@
-//! Running everything that a configuration asks for.
+//! The results of a configuration.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::ExperimentError;
-use crate::config::{Config, ExperimentPlan, PublishedScenario, Selection};
-use crate::diagnostics::InputError;
+use crate::config::PublishedScenario;
 use crate::metrics::RunSummary;
-use crate::run::{Batch, BatchResult, Interrupt, RunHistory, RunOutcome, Setup};
+use crate::provenance::BuildRuns;
+use crate::run::RunHistory;
 use crate::scenario::PlannerName;
-
-/// What of a configuration is run, and what is kept of it.
-#[derive(Clone, Debug, Default)]
-pub struct TablesOptions {
-    /// What is run.
-    pub selection: Selection,
-    /// Whether the first run of each planner is kept step by step.
-    pub record: bool,
-}
-
-/// A configuration made ready to run: all files read, all surfaces built.
-#[derive(Debug)]
-pub struct TablePlan {
-    title: String,
-    runs: usize,
-    first_seed: u64,
-    record: bool,
-    sources: Vec<SourceFile>,
-    mesh: Option<PathBuf>,
-    experiments: Vec<(ExperimentPlan, Setup)>,
-}
-
-/// Told after each run: how many have finished.
-pub type TablesProgress<'a> = &'a (dyn Fn() + Sync);
 
 /// The results of a configuration.
 #[derive(Clone, Debug)]
@@ -54,6 +30,8 @@ pub struct Tables {
     pub interrupted: bool,
     /// What the user should know.
     pub warnings: Vec<String>,
+    /// What made the runs.
+    pub builds: Vec<BuildRuns>,
 }
 
 /// A file that results were made from, as it was read.
@@ -76,8 +54,10 @@ pub struct ExperimentTables {
     pub planners: Vec<PlannerRuns>,
     /// The published values.
     pub published: Option<PublishedScenario>,
-    /// The first run of each planner, where [`TablesOptions::record`] asked for it and it ended
-    /// well; in the order of the planners.
+    /// The first run of each planner, where it was recorded: by [`TablePlan::record`]; in the order of the
+    /// planners.
+    ///
+    /// [`TablePlan::record`]: super::TablePlan::record
     pub histories: Vec<RunHistory>,
 }
 
@@ -90,136 +70,7 @@ pub struct PlannerRuns {
     pub runs: Vec<RunSummary>,
 }
 
-impl TablePlan {
-    /// Reads the configuration at `path` and builds what it names.
-    ///
-    /// # Errors
-    /// Anything wrong with a file, an unknown label, or no runs to do.
-    pub fn load(path: &Path, options: &TablesOptions) -> Result<Self, InputError> {
-        Self::new(Config::load(path)?, options)
-    }
-
-    /// Builds what a configuration names.
-    ///
-    /// # Errors
-    /// As [`TablePlan::load`].
-    pub fn new(config: Config, options: &TablesOptions) -> Result<Self, InputError> {
-        let Config {
-            path,
-            text,
-            title,
-            runs,
-            first_seed,
-            experiments,
-        } = config.select(&options.selection)?;
-        let mut sources = vec![SourceFile { path, text }];
-        let mut ready = Vec::new();
-        for plan in experiments {
-            let (path, text) = (plan.scenario.path(), plan.scenario.text());
-            if sources.iter().all(|known| known.path != path) {
-                sources.push(SourceFile {
-                    path: path.to_owned(),
-                    text: text.to_owned(),
-                });
-            }
-            let setup = Setup::new(&plan.scenario)?;
-            ready.push((plan, setup));
-        }
-        Ok(Self {
-            title,
-            runs,
-            first_seed,
-            record: options.record,
-            sources,
-            mesh: options.selection.mesh.clone(),
-            experiments: ready,
-        })
-    }
-
-    /// How many runs there are in all.
-    #[must_use]
-    pub fn total_runs(&self) -> usize {
-        self.experiments
-            .iter()
-            .map(|(plan, _)| plan.planners.len() * self.runs)
-            .sum()
-    }
-
-    /// Does all runs in parallel. A run that fails, or an interruption, loses none of the others.
-    #[must_use]
-    pub fn run(&self, interrupt: &Interrupt, progress: TablesProgress<'_>) -> Tables {
-        let mut batch = Vec::with_capacity(self.total_runs());
-        for (plan, setup) in &self.experiments {
-            for &planner in &plan.planners {
-                for k in 0..self.runs as u64 {
-                    let seed = self.first_seed.wrapping_add(k);
-                    batch.push(Batch {
-                        setup,
-                        planner,
-                        seed,
-                        record: self.record && k == 0,
-                    });
-                }
-            }
-        }
-        let mut results = Batch::run_all(&batch, interrupt, progress).into_iter();
-        let mut tables = Tables {
-            title: self.title.clone(),
-            runs: self.runs,
-            first_seed: self.first_seed,
-            experiments: Vec::new(),
-            sources: self.sources.clone(),
-            mesh: self.mesh.clone(),
-            failures: Vec::new(),
-            interrupted: false,
-            warnings: Vec::new(),
-        };
-        for (plan, setup) in &self.experiments {
-            tables.warn(setup.warnings.iter().cloned());
-            let mut histories = Vec::new();
-            let planners = plan.planners.iter().map(|&planner| {
-                let mut runs = Vec::with_capacity(self.runs);
-                for result in results.by_ref().take(self.runs) {
-                    let Some(outcome) = tables.sort_in(&plan.label, result) else {
-                        continue;
-                    };
-                    runs.push(outcome.summary);
-                    histories.extend(outcome.history);
-                }
-                PlannerRuns { planner, runs }
-            });
-            let planners = planners.collect();
-            tables.experiments.push(ExperimentTables {
-                label: plan.label.clone(),
-                steps: setup.steps,
-                planners,
-                published: plan.published.clone(),
-                histories,
-            });
-        }
-        tables
-    }
-}
-
 impl Tables {
-    /// A run of the experiment `label` that finished; notes what became of any other.
-    fn sort_in(&mut self, label: &str, result: BatchResult) -> Option<RunOutcome> {
-        match result {
-            Ok(outcome) => {
-                self.warn(outcome.warnings.iter().cloned());
-                Some(outcome)
-            }
-            Err(ExperimentError::Interrupted) => {
-                self.interrupted = true;
-                None
-            }
-            Err(error) => {
-                self.failures.push(format!("[{label}] {error}"));
-                None
-            }
-        }
-    }
-
     /// Whether everything that was asked for is there.
     #[must_use]
     pub fn is_complete(&self) -> bool {
@@ -235,8 +86,8 @@ impl Tables {
         ExperimentError::unless_complete(self.interrupted, self.failures)
     }
 
-    /// Adds warnings that are not there yet: every seed of a scenario may give the same.
-    fn warn(&mut self, warnings: impl IntoIterator<Item = String>) {
+    /// Adds warnings that are not there yet: two experiments may give the same.
+    pub(super) fn warn(&mut self, warnings: impl IntoIterator<Item = String>) {
         for warning in warnings {
             if !self.warnings.contains(&warning) {
                 self.warnings.push(warning);
@@ -260,6 +111,7 @@ mod tests {
             failures: failures.iter().map(ToString::to_string).collect(),
             interrupted,
             warnings: Vec::new(),
+            builds: Vec::new(),
         };
         tables.into_result()
     }

@@ -1,24 +1,47 @@
 //! tables.json: every run, for machines.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde::Serialize;
 
-use super::Tables;
+use super::{Agreement, ExperimentTables, Tables};
 use crate::ExperimentError;
 use crate::config::PublishedScenario;
 use crate::metrics::RunSummary;
-use crate::output::AtomicFile;
+use crate::provenance::BuildRuns;
 use crate::scenario::Named;
 
 #[derive(Serialize)]
 struct TablesJson<'a> {
     title: &'a str,
     runs: usize,
+    first_seed: u64,
     /// Fewer runs may have finished than were asked for.
     complete: bool,
+    /// What the user should know of the runs.
+    warnings: &'a [String],
+    builds: &'a [BuildRuns],
     scenarios: BTreeMap<&'a str, ScenarioJson<'a>>,
     published: BTreeMap<&'a str, PublishedJson>,
+    comparisons: Vec<ComparisonJson<'a>>,
+}
+
+/// A published value against ours; steps that never come are null.
+#[derive(Serialize)]
+struct ComparisonJson<'a> {
+    scenario: &'a str,
+    table: String,
+    row: String,
+    planner: &'static str,
+    published: f64,
+    /// What is expected of as many runs of ours as were published.
+    ours: f64,
+    /// Where as many runs of ours would lie in 95 % of cases.
+    low: Option<f64>,
+    high: Option<f64>,
+    ratio: Option<f64>,
+    agreement: Option<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -43,11 +66,11 @@ struct PublishedPlannerJson {
     feature_error_max: f64,
 }
 
-/// Writes all runs, and the published values.
+/// All runs, the published values, and how they compare, as JSON.
 ///
 /// # Errors
-/// [`ExperimentError::Output`].
-pub fn write_json(tables: &Tables, file: &mut AtomicFile) -> Result<(), ExperimentError> {
+/// [`ExperimentError::Output`] of a number that JSON cannot hold.
+pub fn json(tables: &Tables) -> Result<String, ExperimentError> {
     let scenarios = tables.experiments.iter().map(|experiment| {
         let planners = experiment.planners.iter();
         let planners = planners
@@ -64,11 +87,43 @@ pub fn write_json(tables: &Tables, file: &mut AtomicFile) -> Result<(), Experime
     let json = TablesJson {
         title: &tables.title,
         runs: tables.runs,
+        first_seed: tables.first_seed,
         complete: tables.is_complete(),
+        warnings: &tables.warnings,
+        builds: &tables.builds,
         scenarios: scenarios.collect(),
         published: published.collect(),
+        comparisons: tables.experiments.iter().flat_map(comparisons).collect(),
     };
-    file.add_json(&json)
+    let text = serde_json::to_string_pretty(&json);
+    let text = text.map_err(ExperimentError::output(Path::new("tables.json")))?;
+    Ok(text + "\n")
+}
+
+fn comparisons(experiment: &ExperimentTables) -> Vec<ComparisonJson<'_>> {
+    let mut all = Vec::new();
+    for table in experiment.paper_tables() {
+        for row in &table.rows {
+            for (planner, cell) in table.planners.iter().zip(&row.cells) {
+                let Some(compared) = cell.comparison else {
+                    continue;
+                };
+                all.push(ComparisonJson {
+                    scenario: &experiment.label,
+                    table: table.title.clone(),
+                    row: row.name.clone(),
+                    planner: planner.as_str(),
+                    published: compared.published,
+                    ours: compared.ours,
+                    low: compared.interval.map(|interval| interval.low),
+                    high: compared.interval.map(|interval| interval.high),
+                    ratio: compared.ratio,
+                    agreement: compared.agreement.map(Agreement::as_str),
+                });
+            }
+        }
+    }
+    all
 }
 
 fn published_json(published: &PublishedScenario) -> PublishedJson {

@@ -4,16 +4,16 @@ mod agreement;
 mod cell;
 mod collect;
 mod json;
+mod plan;
 mod render;
 mod rows;
 mod statistics;
 
-pub use agreement::{AGREES_WITHIN, Agreement, NEAR_WITHIN};
+pub use agreement::{Agreement, Comparison, NEAR_WITHIN};
 pub use cell::{CellValue, ResultCell};
-pub use collect::{
-    ExperimentTables, PlannerRuns, SourceFile, TablePlan, Tables, TablesOptions, TablesProgress,
-};
-pub use json::write_json;
+pub use collect::{ExperimentTables, PlannerRuns, SourceFile, Tables};
+pub use json::json;
+pub use plan::TablePlan;
 pub use render::{markdown, terminal};
 pub use rows::{ResultRow, ResultTable};
 pub use statistics::Spread;

@@ -1,18 +1,17 @@
 //! The messages, in the form of Foxglove's schemas. Lengths are metres here.
 
-use adslam_experiment::run::HistoryStep;
+use adslam_experiment::run::{HistoryMetrics, HistoryStep};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Vector3};
 use serde::Serialize;
+use serde_json::Value;
 
+use super::geometry::{METRES, Placed, Quaternion, Xyz, at_origin, metres, placed, quaternion};
 use crate::ellipsoid::ellipsoid;
 
 /// The fixed frame.
 const WORLD: &str = "world";
-
-/// Metres in a centimetre.
-const METRES: f64 = 0.01;
 
 /// How large ellipsoids are drawn.
 const SIGMAS: f64 = 3.0;
@@ -37,27 +36,6 @@ impl Stamp {
     pub(super) const fn nanoseconds(self) -> u64 {
         self.sec * Self::SECOND + self.nsec
     }
-}
-
-#[derive(Serialize)]
-struct Xyz {
-    x: f64,
-    y: f64,
-    z: f64,
-}
-
-#[derive(Serialize)]
-struct Quaternion {
-    x: f64,
-    y: f64,
-    z: f64,
-    w: f64,
-}
-
-#[derive(Serialize)]
-struct Placed {
-    position: Xyz,
-    orientation: Quaternion,
 }
 
 #[derive(Clone, Copy, Serialize)]
@@ -95,6 +73,13 @@ pub(super) struct PoseInFrame {
     timestamp: Stamp,
     frame_id: &'static str,
     pose: Placed,
+}
+
+#[derive(Serialize)]
+pub(super) struct PosesInFrame {
+    timestamp: Stamp,
+    frame_id: &'static str,
+    poses: Vec<Placed>,
 }
 
 #[derive(Serialize)]
@@ -184,6 +169,25 @@ pub(super) fn pose(timestamp: Stamp, robot: &Isometry3<f64>) -> PoseInFrame {
     }
 }
 
+/// Poses one after the other.
+pub(super) fn path(timestamp: Stamp, poses: impl Iterator<Item = Isometry3<f64>>) -> PosesInFrame {
+    PosesInFrame {
+        timestamp,
+        frame_id: WORLD,
+        poses: poses.map(|pose| placed(&pose)).collect(),
+    }
+}
+
+/// The numbers of a step; those that it lacks, such as the NEES of an exactly known pose, are left out, as
+/// their schema has nothing but numbers.
+pub(super) fn metrics(numbers: &HistoryMetrics) -> serde_json::Result<Value> {
+    let mut value = serde_json::to_value(numbers)?;
+    if let Value::Object(fields) = &mut value {
+        fields.retain(|_, number| !number.is_null());
+    }
+    Ok(value)
+}
+
 /// Features with their numbers and whether they are seen.
 pub(super) fn cloud(timestamp: Stamp, places: &[[f64; 3]], visible: &[usize]) -> PointCloud {
     // The types' numbers in Foxglove's enumeration.
@@ -217,14 +221,10 @@ pub(super) fn cloud(timestamp: Stamp, places: &[[f64; 3]], visible: &[usize]) ->
 }
 
 /// The surface.
-pub(super) fn scene(
-    timestamp: Stamp,
-    vertices: &[Point3<f64>],
-    faces: &[[usize; 3]],
-) -> SceneUpdate {
+pub(super) fn scene(timestamp: Stamp, vertices: &[Xyz], faces: &[[usize; 3]]) -> SceneUpdate {
     let triangles = Triangles {
         pose: at_origin(),
-        points: vertices.iter().map(|p| metres(&p.coords)).collect(),
+        points: vertices.to_vec(),
         color: SURFACE,
         colors: [],
         indices: faces.iter().flatten().copied().collect(),
@@ -277,31 +277,4 @@ fn entity(
         deletions: [],
         entities: vec![entity],
     }
-}
-
-fn placed(pose: &Isometry3<f64>) -> Placed {
-    Placed {
-        position: metres(&pose.translation.vector),
-        orientation: quaternion(&pose.rotation),
-    }
-}
-
-fn at_origin() -> Placed {
-    placed(&Isometry3::identity())
-}
-
-fn quaternion(q: &UnitQuaternion<f64>) -> Quaternion {
-    Quaternion {
-        x: q.i,
-        y: q.j,
-        z: q.k,
-        w: q.w,
-    }
-}
-
-/// To a hundredth of a micrometre: histories have no more, and files are shorter.
-fn metres(v: &Vector3<f64>) -> Xyz {
-    const SCALE: f64 = 1e8;
-    let [x, y, z] = [v.x, v.y, v.z].map(|c| (c * METRES * SCALE).round() / SCALE);
-    Xyz { x, y, z }
 }

@@ -1,5 +1,6 @@
 //! A run as an MCAP file for Foxglove: poses, features, surface and curves against time.
 
+mod geometry;
 mod messages;
 mod schemas;
 
@@ -10,15 +11,22 @@ use std::path::Path;
 
 use adslam_experiment::ExperimentError;
 use adslam_experiment::output::AtomicFile;
-use adslam_experiment::run::RunHistory;
+use adslam_experiment::run::{HistoryStep, RunHistory};
 use mcap::records::MessageHeader;
-use mcap::{McapError, WriteOptions, Writer};
-use nalgebra::Isometry3;
+use mcap::{Compression, McapError, WriteOptions, Writer};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use serde::Serialize;
 
 use crate::failed;
-use messages::{Stamp, cloud, frame, pose, scene, uncertainty};
+use geometry::{Xyz, surface_points};
+use messages::{Stamp, cloud, frame, metrics, path, pose, scene, uncertainty};
 use schemas::Schema;
+
+/// Messages that are packed together: some steps of a large surface, whose triangles are then written once.
+const CHUNK_BYTES: u64 = 4 << 20;
+
+/// Poses of a path that are written at each step: the size of a file grows with its steps, not their square.
+const LONGEST_PATH: usize = 500;
 
 /// The time between two steps, which have none of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,8 +61,9 @@ impl Period {
 /// Writes a run as MCAP, steps `period` apart; lengths in metres, as Foxglove expects.
 ///
 /// Messages are JSON with Foxglove's well-known schemas, so that its panels show them as they are:
-/// frames and poses of the robot, true and estimated, clouds of features, the surface, and the
-/// ellipsoids of three sigmas; and `/metrics` with numbers to plot.
+/// frames, poses and paths of the robot, true and estimated, viewpoints, clouds of features, the surface where
+/// it has changed, and the ellipsoids of three sigmas; and `/metrics`, with a schema of its own, of numbers to
+/// plot. They are packed with zstd.
 ///
 /// # Errors
 /// A file that cannot be written; what lay at `out` is then unchanged.
@@ -66,13 +75,16 @@ pub fn write_mcap(history: &RunHistory, period: Period, out: &Path) -> Result<()
         })
     };
     let options = WriteOptions::new()
-        .compression(None)
+        .compression(Some(Compression::Zstd))
+        .chunk_size(Some(CHUNK_BYTES))
         .library(concat!("adslam ", env!("CARGO_PKG_VERSION")));
     let mut file = AtomicFile::create(out)?;
     let mut log = Log {
         writer: options.create(&mut file).map_err(said)?,
         channels: BTreeMap::new(),
+        surface: Vec::new(),
     };
+    log.viewpoints(history, period).map_err(said)?;
     for (index, sequence) in (0..history.steps.len()).zip(1..) {
         log.step(history, index, sequence, period).map_err(said)?;
     }
@@ -85,6 +97,8 @@ pub fn write_mcap(history: &RunHistory, period: Period, out: &Path) -> Result<()
 struct Log<'a> {
     writer: Writer<&'a mut AtomicFile>,
     channels: BTreeMap<&'static str, u16>,
+    /// The vertices of the surface as they were written last.
+    surface: Vec<Xyz>,
 }
 
 impl Log<'_> {
@@ -99,11 +113,7 @@ impl Log<'_> {
             return Ok(());
         };
         let at = period.at(u64::from(sequence));
-        let (truth, estimate) = (step.true_pose(), step.estimate());
-        let [truth, estimate] = [truth, estimate].map(|pose| {
-            let rotation = pose.orientation.quaternion();
-            Isometry3::from_parts(pose.position.into(), rotation)
-        });
+        let [truth, estimate] = [step.pose, step.estimated_pose].map(placement);
         for (name, robot) in [("robot", &truth), ("robot_estimate", &estimate)] {
             let message = frame(at, name, robot);
             self.add("/tf", Schema::FrameTransform, sequence, at, &message)?;
@@ -111,6 +121,17 @@ impl Log<'_> {
         for (topic, robot) in [("/pose/truth", &truth), ("/pose/estimate", &estimate)] {
             self.add(topic, Schema::PoseInFrame, sequence, at, &pose(at, robot))?;
         }
+        let so_far = thinned(&history.steps[..=index]);
+        let message = path(at, so_far.clone().map(|step| placement(step.pose)));
+        self.add("/path/truth", Schema::PosesInFrame, sequence, at, &message)?;
+        let message = path(at, so_far.map(|step| placement(step.estimated_pose)));
+        self.add(
+            "/path/estimate",
+            Schema::PosesInFrame,
+            sequence,
+            at,
+            &message,
+        )?;
         for (topic, places) in [
             ("/features/truth", &step.features),
             ("/features/estimate", &step.estimated_features),
@@ -118,11 +139,27 @@ impl Log<'_> {
             let message = cloud(at, places, &step.visible);
             self.add(topic, Schema::PointCloud, sequence, at, &message)?;
         }
-        let surface = scene(at, &history.drawn_vertices(index), history.drawn_faces());
-        self.add("/surface", Schema::SceneUpdate, sequence, at, &surface)?;
+        let vertices = surface_points(&history.drawn_vertices(index));
+        if vertices != self.surface {
+            let surface = scene(at, &vertices, history.drawn_faces());
+            self.add("/surface", Schema::SceneUpdate, sequence, at, &surface)?;
+            self.surface = vertices;
+        }
         let message = uncertainty(at, step);
         self.add("/uncertainty", Schema::SceneUpdate, sequence, at, &message)?;
-        self.add("/metrics", Schema::Metrics, sequence, at, &step.metrics)
+        let message = metrics(&step.metrics).map_err(io::Error::from)?;
+        self.add("/metrics", Schema::Metrics, sequence, at, &message)
+    }
+
+    /// The viewpoints, which stay where they are: once, at the first step.
+    fn viewpoints(&mut self, history: &RunHistory, period: Period) -> Result<(), McapError> {
+        if history.viewpoints_cm.is_empty() {
+            return Ok(());
+        }
+        let at = period.at(1);
+        let places = history.viewpoints_cm.iter();
+        let message = path(at, places.map(|&[x, y, z]| Isometry3::translation(x, y, z)));
+        self.add("/viewpoints", Schema::PosesInFrame, 1, at, &message)
     }
 
     fn add(
@@ -156,6 +193,20 @@ impl Log<'_> {
         };
         self.writer.write_to_known_channel(&header, &data)
     }
+}
+
+/// A pose of a history as what takes body to world.
+fn placement([roll, pitch, yaw, x, y, z]: [f64; 6]) -> Isometry3<f64> {
+    let rotation = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+    Isometry3::from_parts(Translation3::new(x, y, z), rotation)
+}
+
+/// Steps of a path, evenly thinned where they are many, the last of them always.
+fn thinned(steps: &[HistoryStep]) -> impl Iterator<Item = &HistoryStep> + Clone {
+    let apart = steps.len().div_ceil(LONGEST_PATH).max(1);
+    // Counted from the last.
+    let first = steps.len().saturating_sub(1) % apart;
+    steps.iter().skip(first).step_by(apart)
 }
 
 #[cfg(test)]

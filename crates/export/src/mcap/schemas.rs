@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 pub(super) enum Schema {
     FrameTransform,
     PoseInFrame,
+    PosesInFrame,
     PointCloud,
     SceneUpdate,
     /// Ours: the numbers of a step.
@@ -18,6 +19,7 @@ impl Schema {
         match self {
             Self::FrameTransform => "foxglove.FrameTransform",
             Self::PoseInFrame => "foxglove.PoseInFrame",
+            Self::PosesInFrame => "foxglove.PosesInFrame",
             Self::PointCloud => "foxglove.PointCloud",
             Self::SceneUpdate => "foxglove.SceneUpdate",
             Self::Metrics => "adslam.Metrics",
@@ -37,6 +39,11 @@ impl Schema {
                 ("timestamp", stamp("time")),
                 ("frame_id", text()),
                 ("pose", placed()),
+            ],
+            Self::PosesInFrame => vec![
+                ("timestamp", stamp("time")),
+                ("frame_id", text()),
+                ("poses", list(&placed())),
             ],
             Self::PointCloud => vec![
                 ("timestamp", stamp("time")),
@@ -59,28 +66,56 @@ impl Schema {
                 ("deletions", list(&json!({"type": "object"}))),
                 ("entities", list(&entity())),
             ],
-            Self::Metrics => METRICS.map(|name| (name, number())).into(),
+            Self::Metrics => METRICS.map(|(name, what)| (name, metric(what))).into(),
         };
         object(self.name(), fields)
     }
 }
 
-/// The numbers of a step, in the order of the message.
-const METRICS: [&str; 13] = [
-    "pose_error",
-    "orientation_error_rad",
-    "position_error_cm",
-    "drift_floor_cm",
-    "relative_pose_error",
-    "feature_error_mean_cm",
-    "feature_error_max_cm",
-    "relative_feature_error_cm",
-    "pose_nees",
-    "feature_nees",
-    "trace",
-    "covered",
-    "surface_distance_cm",
+/// The numbers of a step, in the order of the message, and what they are. One that a step lacks is left out.
+const METRICS: [(&str, &str); 13] = [
+    ("pose_error", "pose error, eq. (11), rad and cm together"),
+    ("orientation_error_rad", "its part of the orientation, rad"),
+    ("position_error_cm", "its part of the position, cm"),
+    (
+        "drift_floor_cm",
+        "position error that the noise alone is expected to cost, cm",
+    ),
+    (
+        "relative_pose_error",
+        "pose error relative to the object, rad and cm together",
+    ),
+    (
+        "feature_error_mean_cm",
+        "feature error, eq. (12), mean over the features, cm",
+    ),
+    (
+        "feature_error_max_cm",
+        "feature error, largest of the features, cm",
+    ),
+    (
+        "relative_feature_error_cm",
+        "feature error relative to the object, mean, cm",
+    ),
+    ("pose_nees", "NEES of the pose, 6 degrees of freedom"),
+    (
+        "feature_nees",
+        "NEES of a feature, 3 degrees of freedom, mean over the features",
+    ),
+    (
+        "trace",
+        "trace of the covariance of the whole state, rad² + cm²",
+    ),
+    ("covered", "features seen so far"),
+    (
+        "surface_distance_cm",
+        "signed distance of the robot from the surface, negative inside, cm",
+    ),
 ];
+
+fn metric(what: &str) -> Value {
+    json!({"type": "number", "description": what})
+}
 
 fn entity() -> Value {
     let nothing = || list(&json!({"type": "object"}));

@@ -176,36 +176,4 @@ fn pick(rewards: &[usize], total: usize, u: f64) -> usize {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn picks_in_proportion_to_the_rewards() {
-        let rewards = [0, 1, 0, 3, 0];
-        let mut counts = [0; 5];
-        for i in 0..400 {
-            counts[pick(&rewards, 4, f64::from(i) / 400.0)] += 1;
-        }
-        assert_eq!(counts, [0, 100, 0, 300, 0]);
-        assert_eq!(pick(&rewards, 4, 1.0 - f64::EPSILON), 3);
-    }
-
-    #[test]
-    fn a_set_covers_what_can_be_covered() {
-        let ids = |v: &[usize]| v.iter().map(|&i| FeatureId(i)).collect::<Vec<_>>();
-        let coverage = Coverage {
-            seen_from: vec![ids(&[0]), ids(&[1, 2]), ids(&[2, 3]), ids(&[])],
-            seen_at_start: vec![true, false, false, false, false],
-        };
-        assert_eq!(coverage.never_seen(), vec![FeatureId(4)]);
-        for u in [0.0, 0.3, 0.6, 0.99] {
-            let set = coverage.draw_set(0, &mut || u);
-            assert_eq!(
-                set.len(),
-                3,
-                "the start, then both candidates that see something new"
-            );
-            assert!(set.contains(&1) && set.contains(&2));
-        }
-    }
-}
+mod tests;

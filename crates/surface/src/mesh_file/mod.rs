@@ -3,7 +3,9 @@
 mod joiner;
 mod obj;
 mod ply;
+mod polygon;
 mod stl;
+mod text;
 
 use std::fmt;
 use std::fs::File;
@@ -25,11 +27,11 @@ const MOST_VERTICES: u64 = 3 * MAX_MESH_FACES;
 /// A format of mesh files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MeshFormat {
-    /// STL, binary or ASCII: loose triangles of 32-bit numbers.
+    /// STL, binary or text: loose triangles of 32-bit numbers, in one solid or several.
     Stl,
     /// Wavefront OBJ, of which positions and faces are read.
     Obj,
-    /// PLY, binary or ASCII, with the elements `vertex` and `face`.
+    /// PLY, binary or text, with the elements `vertex` and `face` or `tristrips`.
     Ply,
 }
 
@@ -40,11 +42,13 @@ pub struct MeshFile {
     pub format: MeshFormat,
     /// Whether its numbers are stored as bytes rather than as text.
     pub is_binary: bool,
-    /// The triangles; a polygon of more corners is a fan from its first. Vertices that are equal
+    /// The triangles; polygons of more corners are cut into such. Vertices that are equal
     /// bit by bit are joined, and those of no triangle left out.
     pub mesh: Mesh,
     /// Triangles that this left without a third corner; they are not in the mesh.
     pub collapsed: usize,
+    /// What of the file was passed over or may not be as meant, a sentence each, as for people.
+    pub notes: Vec<String>,
 }
 
 impl MeshFormat {
@@ -117,18 +121,19 @@ impl MeshFile {
     /// Not of this format, no triangles, too many, cut short.
     pub fn parse(format: MeshFormat, bytes: &[u8]) -> Result<Self, SurfaceError> {
         check_size(bytes.len() as u64)?;
-        let mut joiner = Joiner::default();
+        let (mut joiner, mut notes) = (Joiner::default(), Vec::new());
         let is_binary = match format {
-            MeshFormat::Stl => stl::parse(bytes, &mut joiner)?,
-            MeshFormat::Obj => obj::parse(bytes, &mut joiner).map(|()| false)?,
-            MeshFormat::Ply => ply::parse(bytes, &mut joiner)?,
+            MeshFormat::Stl => stl::parse(bytes, &mut joiner, &mut notes)?,
+            MeshFormat::Obj => obj::parse(bytes, &mut joiner, &mut notes).map(|()| false)?,
+            MeshFormat::Ply => ply::parse(bytes, &mut joiner, &mut notes)?,
         };
-        let (mesh, collapsed) = joiner.finish()?;
+        let (mesh, collapsed) = joiner.finish(&mut notes)?;
         Ok(Self {
             format,
             is_binary,
             mesh,
             collapsed,
+            notes,
         })
     }
 }

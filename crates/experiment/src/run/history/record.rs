@@ -103,8 +103,11 @@ impl<'a> HistoryRecorder<'a> {
 
     fn decision(&self, view: &StepView<'_>) -> Option<HistoryDecision> {
         let (decision, milliseconds) = view.decision?;
-        let mut scores: Vec<(usize, f64)> =
-            view.scores.iter().map(|s| (s.index, s.trace)).collect();
+        let mut scores: Vec<(usize, f64)> = view
+            .scores
+            .iter()
+            .filter_map(|s| Some((s.index?, s.trace)))
+            .collect();
         scores.sort_unstable_by_key(|(index, _)| *index);
         Some(HistoryDecision {
             control: control_numbers(&decision.control),

@@ -52,7 +52,10 @@ impl Observer for Compare<'_> {
         let candidates = history.candidates(index);
         assert_eq!(candidates.len(), view.scores.len());
         for score in view.scores {
-            let stored = candidates.iter().find(|c| c.action == score.index).unwrap();
+            let stored = candidates
+                .iter()
+                .find(|c| Some(c.action) == score.index)
+                .unwrap();
             assert!(stored.pose.minus(&score.pose).amax() < 1e-4);
             assert!((stored.trace - score.trace).abs() <= 1e-6 * score.trace);
         }

@@ -192,6 +192,13 @@ macro_rules! default_of {
 
 default_of!(Finite, NonNegative, Probability, ClockFactor, Spacing);
 
+impl Default for NonNegative {
+    /// Zero.
+    fn default() -> Self {
+        Self::default_of(0.0)
+    }
+}
+
 macro_rules! degrees {
     ($($name:ident),+) => {
         $(impl $name {

@@ -1,5 +1,6 @@
 //! Tests of studies whose units are quick: what is done, kept and done again.
 
+mod grown;
 mod refused;
 
 use std::fs;
@@ -8,9 +9,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 
-use super::{Study, StudyEnd, StudyPlan, StudyUnit};
+use super::{OtherBuilds, Study, StudyEnd, StudyPlan, StudyPoint, StudyUnit};
 use crate::ExperimentError;
 use crate::run::{Interrupt, Setup};
 use crate::scenario::tests::POLYGON;
@@ -38,31 +38,34 @@ fn setup() -> Setup {
 }
 
 /// Two planners at as many seeds.
-fn plan(setup: &Setup, seeds: u64) -> StudyPlan<'_> {
-    let mut identity = serde_json::Map::new();
-    identity.insert("runs".to_owned(), json!(seeds));
-    identity.insert("scenario".to_owned(), setup.scenario.keys());
-    identity.insert("object_crc32".to_owned(), json!(setup.object_checksum()));
-    let planners = [PlannerName::Local, PlannerName::Global];
-    let units = planners.into_iter().flat_map(|planner| {
-        (1..=seeds).map(move |seed| StudyUnit {
-            point: 0,
-            setup,
-            planner,
-            seed,
-        })
+fn plan(setup: &Setup, runs: usize) -> StudyPlan<'_> {
+    of_points(&[setup], runs)
+}
+
+/// Two planners at as many seeds at each of several points.
+fn of_points<'a>(setups: &[&'a Setup], runs: usize) -> StudyPlan<'a> {
+    const PLANNERS: &[PlannerName] = &[PlannerName::Local, PlannerName::Global];
+    let points = setups.iter().map(|&setup| StudyPoint {
+        setup,
+        planners: PLANNERS,
+        label: None,
     });
     StudyPlan {
         kind: "test",
-        identity,
-        units: units.collect(),
+        points: points.collect(),
+        first_seed: 1,
+        runs,
     }
 }
 
+fn open<'a>(folder: &Path, plan: &StudyPlan<'a>) -> Result<Study<'a, Said>, ExperimentError> {
+    Study::open(folder, plan, OtherBuilds::Refuse)
+}
+
 /// Opens the study and does what is missing; returns how many units that were, and how it ended.
-fn work(folder: &Path, plan: StudyPlan<'_>) -> (usize, Vec<Said>) {
+fn work(folder: &Path, plan: &StudyPlan<'_>) -> (usize, Vec<Said>) {
     let begun = AtomicUsize::new(0);
-    let mut study = Study::open(folder, plan).unwrap();
+    let mut study = open(folder, plan).unwrap();
     let end = study.finish(&Interrupt::new(), &|| (), |unit, _| {
         begun.fetch_add(1, Ordering::Relaxed);
         Ok(Said::of(unit))
@@ -84,15 +87,15 @@ fn names(folder: &Path) -> Vec<String> {
 #[test]
 fn every_unit_is_done_once_and_its_record_read_back() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
-    let (begun, records) = work(folder.path(), plan(&setup, 3));
+    let (begun, records) = work(folder.path(), &plan(&setup, 3));
     assert_eq!(begun, 6);
-    let expected: Vec<Said> = plan(&setup, 3).units.iter().map(Said::of).collect();
+    let expected: Vec<Said> = plan(&setup, 3).units(&[1]).iter().map(Said::of).collect();
     assert_eq!(records, expected, "in the order of the plan");
     assert_eq!(names(folder.path()), ["plan.json", "records", "study.lock"]);
     let kept = names(&folder.path().join("records"));
     assert_eq!(kept.len(), 6);
     assert_eq!(kept[0], "0001-global-seed1.jsonl");
-    assert_eq!(work(folder.path(), plan(&setup, 3)), (0, expected));
+    assert_eq!(work(folder.path(), &plan(&setup, 3)), (0, expected));
 }
 
 /// Half of the units are done, then the user stops; a later process does the other half.
@@ -100,7 +103,7 @@ fn every_unit_is_done_once_and_its_record_read_back() {
 fn an_interrupted_study_goes_on() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
     let (interrupt, done) = (Interrupt::new(), Mutex::new(Vec::new()));
-    let mut study = Study::open(folder.path(), plan(&setup, 10)).unwrap();
+    let mut study = open(folder.path(), &plan(&setup, 10)).unwrap();
     let finished = AtomicUsize::new(0);
     let progress = || {
         finished.fetch_add(1, Ordering::Relaxed);
@@ -124,14 +127,14 @@ fn an_interrupted_study_goes_on() {
     assert_eq!((study.done(), finished.into_inner()), (10, 10));
     drop(study);
     assert_eq!(names(&folder.path().join("records")).len(), 10);
-    let (begun, records) = work(folder.path(), plan(&setup, 10));
+    let (begun, records) = work(folder.path(), &plan(&setup, 10));
     assert_eq!((begun, records.len()), (10, 20));
 }
 
 #[test]
 fn what_fails_is_told_and_tried_again() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
-    let mut study = Study::open(folder.path(), plan(&setup, 2)).unwrap();
+    let mut study = open(folder.path(), &plan(&setup, 2)).unwrap();
     let end = study.finish(&Interrupt::new(), &|| (), |unit, _| {
         if unit.planner == PlannerName::Local {
             let run = format!("polygon, seed {}", unit.seed);
@@ -157,7 +160,7 @@ fn what_fails_is_told_and_tried_again() {
         "{failures:?}"
     );
     drop(study);
-    assert_eq!(work(folder.path(), plan(&setup, 2)).0, 3);
+    assert_eq!(work(folder.path(), &plan(&setup, 2)).0, 3);
 }
 
 #[test]
@@ -165,7 +168,7 @@ fn a_write_that_fails_ends_the_work_and_loses_nothing() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
     let records = folder.path().join("records");
     let begun = AtomicUsize::new(0);
-    let mut study = Study::open(folder.path(), plan(&setup, 50)).unwrap();
+    let mut study = open(folder.path(), &plan(&setup, 50)).unwrap();
     let end = study.finish(&Interrupt::new(), &|| (), |unit, _| {
         if begun.fetch_add(1, Ordering::Relaxed) == 10 {
             fs::rename(&records, folder.path().join("away")).unwrap();
@@ -182,5 +185,5 @@ fn a_write_that_fails_ends_the_work_and_loses_nothing() {
     assert!((9..=begun).contains(&kept), "{kept} of {begun}");
     drop(study);
     fs::rename(folder.path().join("away"), &records).unwrap();
-    assert_eq!(work(folder.path(), plan(&setup, 50)).0, 100 - kept);
+    assert_eq!(work(folder.path(), &plan(&setup, 50)).0, 100 - kept);
 }

@@ -7,16 +7,16 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 use super::super::folder::StudyFolder;
-use super::super::{Study, StudyPlan};
-use super::{Said, names, plan, setup, work};
+use super::super::{OtherBuilds, StudyPlan};
+use super::{names, open, plan, setup, work};
 use crate::ExperimentError;
 use crate::diagnostics::InputError;
 use crate::run::Setup;
 use crate::scenario::Scenario;
 use crate::scenario::tests::POLYGON;
 
-fn refused(folder: &Path, plan: StudyPlan<'_>) -> InputError {
-    match Study::<Said>::open(folder, plan) {
+fn refused(folder: &Path, plan: &StudyPlan<'_>) -> InputError {
+    match open(folder, plan) {
         Err(ExperimentError::Input(error)) => error,
         other => panic!("{other:?}"),
     }
@@ -27,48 +27,52 @@ fn one_process_at_a_time() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
     // A process that died here, with as long a number as there is.
     fs::write(folder.path().join("study.lock"), "4294967295").unwrap();
-    let at_work = StudyFolder::lock(folder.path(), &plan(&setup, 1)).unwrap();
+    let at_work = StudyFolder::lock(folder.path(), &plan(&setup, 1), OtherBuilds::Refuse).unwrap();
     let process = format!("another adslam (process {}) is at work", std::process::id());
     let refused_with = |process: &str| {
-        let error = refused(folder.path(), plan(&setup, 1));
+        let error = refused(folder.path(), &plan(&setup, 1));
         assert!(error.message().starts_with(process), "{error}");
         assert!(error.remedy().unwrap().contains("--out"));
     };
     // As soon as it is locked, and later.
     refused_with(&process);
     drop(at_work);
-    let at_work = Study::<Said>::open(folder.path(), plan(&setup, 1)).unwrap();
+    let at_work = open(folder.path(), &plan(&setup, 1)).unwrap();
     refused_with(&process);
     fs::write(folder.path().join("study.lock"), "").unwrap();
     refused_with("another adslam is at work");
     drop(at_work);
-    assert_eq!(work(folder.path(), plan(&setup, 1)).0, 2);
+    assert_eq!(work(folder.path(), &plan(&setup, 1)).0, 2);
 }
 
 #[test]
 fn another_study_is_refused_by_what_differs() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
-    work(folder.path(), plan(&setup, 1));
-    let error = refused(folder.path(), plan(&setup, 2));
+    work(folder.path(), &plan(&setup, 1));
+    let later = StudyPlan {
+        first_seed: 2,
+        ..plan(&setup, 2)
+    };
+    let error = refused(folder.path(), &later);
     assert!(
         error
             .message()
-            .contains("holds another study: `units` is 2 there and 4 here"),
+            .ends_with("holds another study: seeds 1 there and 2–3 here"),
         "{error}"
     );
     let wider = POLYGON.replacen("range_cm = 3.0", "range_cm = 4.0", 1);
     let wider = Setup::new(&Scenario::parse(&wider, Path::new("polygon.toml")).unwrap()).unwrap();
-    let error = refused(folder.path(), plan(&wider, 1));
-    let difference = "`scenario.sensor.range_cm` is 3.0 there and 4.0 here";
+    let error = refused(folder.path(), &plan(&wider, 1));
+    let difference = "`sensor.range_cm` is 3.0 there and 4.0 here";
     assert!(error.message().contains(difference), "{error}");
     assert!(error.path().ends_with("plan.json"));
     // What is said there does not count, nor where it lies.
     let same = format!("# A comment.\n{POLYGON}").replace("A prism of", "About");
     let same = Setup::new(&Scenario::parse(&same, Path::new("other.toml")).unwrap()).unwrap();
-    assert_eq!(work(folder.path(), plan(&same, 1)).0, 0);
+    assert_eq!(work(folder.path(), &plan(&same, 1)).0, 0);
     for text in ["", "{}", "[1", "\u{1}"] {
         fs::write(folder.path().join("plan.json"), text).unwrap();
-        let error = refused(folder.path(), plan(&setup, 1));
+        let error = refused(folder.path(), &plan(&setup, 1));
         assert!(error.message().contains("is no plan of a study"), "{error}");
     }
 }
@@ -92,27 +96,27 @@ fn content(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 #[test]
 fn a_folder_that_is_refused_stays_as_it_is() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
-    work(folder.path(), plan(&setup, 2));
+    work(folder.path(), &plan(&setup, 2));
     let path = |name: &str| folder.path().join(name);
     fs::write(path("records/.adslam-abc123"), "half").unwrap();
     let before = content(folder.path());
-    refused(folder.path(), plan(&setup, 3));
+    refused(folder.path(), &plan(&setup, 1));
     assert_eq!(content(folder.path()), before);
     // Nor is a plan written for records that turn out to be of another study.
     fs::remove_file(path("plan.json")).unwrap();
     let before = content(folder.path());
     let wider = POLYGON.replacen("range_cm = 3.0", "range_cm = 4.0", 1);
     let wider = Setup::new(&Scenario::parse(&wider, Path::new("polygon.toml")).unwrap()).unwrap();
-    let error = refused(folder.path(), plan(&wider, 2));
+    let error = refused(folder.path(), &plan(&wider, 2));
     assert!(error.message().contains("of another study"), "{error}");
     assert_eq!(content(folder.path()), before);
-    assert_eq!(work(folder.path(), plan(&setup, 2)).0, 0);
+    assert_eq!(work(folder.path(), &plan(&setup, 2)).0, 0);
 }
 
 #[test]
 fn files_that_are_far_too_large_are_not_called_damaged() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
-    work(folder.path(), plan(&setup, 1));
+    work(folder.path(), &plan(&setup, 1));
     for (name, most_bytes) in [
         ("records/0001-local-seed1.jsonl", 1 << 30),
         ("plan.json", 1_u64 << 28),
@@ -121,7 +125,7 @@ fn files_that_are_far_too_large_are_not_called_damaged() {
         // Nothing but a length: it takes no room on the disk.
         let file = File::options().write(true).open(&path).unwrap();
         file.set_len(most_bytes + 1).unwrap();
-        let error = refused(folder.path(), plan(&setup, 1));
+        let error = refused(folder.path(), &plan(&setup, 1));
         let message = format!("has more than {most_bytes} bytes");
         assert!(error.message().contains(&message), "{error}");
         assert_eq!(error.path(), path);
@@ -133,7 +137,7 @@ fn files_that_are_far_too_large_are_not_called_damaged() {
 #[test]
 fn no_damage_goes_unseen() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
-    work(folder.path(), plan(&setup, 1));
+    work(folder.path(), &plan(&setup, 1));
     let path = folder.path().join("records/0001-local-seed1.jsonl");
     let whole = fs::read(&path).unwrap();
     for at in 0..whole.len() {
@@ -141,21 +145,21 @@ fn no_damage_goes_unseen() {
         other[at] ^= 1 << (at % 8);
         for bytes in [&whole[..at], &other] {
             fs::write(&path, bytes).unwrap();
-            refused(folder.path(), plan(&setup, 1));
+            refused(folder.path(), &plan(&setup, 1));
         }
     }
     fs::write(&path, &whole).unwrap();
-    assert_eq!(work(folder.path(), plan(&setup, 1)).0, 0);
+    assert_eq!(work(folder.path(), &plan(&setup, 1)).0, 0);
 }
 
 /// A study of one planner and seed with its record altered.
 fn with_record(setup: &Setup, alter: impl FnOnce(String) -> String) -> (TempDir, InputError) {
     let folder = tempfile::tempdir().unwrap();
-    work(folder.path(), plan(setup, 1));
+    work(folder.path(), &plan(setup, 1));
     let record = folder.path().join("records/0001-local-seed1.jsonl");
     let text = alter(fs::read_to_string(&record).unwrap());
     fs::write(&record, text).unwrap();
-    let error = refused(folder.path(), plan(setup, 1));
+    let error = refused(folder.path(), &plan(setup, 1));
     assert_eq!(error.path(), record);
     fs::remove_file(&record).unwrap();
     (folder, error)
@@ -182,7 +186,7 @@ fn damaged_and_foreign_records_are_named() {
             "is a record of another study",
         ),
         (
-            |text| text.replacen("\"study\":\"", "\"study\":\"0", 1),
+            |text| text.replacen("\"identity\":\"", "\"identity\":\"0", 1),
             "is a record of another study",
         ),
     ];
@@ -194,17 +198,17 @@ fn damaged_and_foreign_records_are_named() {
             "{error:?}"
         );
         // As the remedy says.
-        assert_eq!(work(folder.path(), plan(&setup, 1)).0, 1);
+        assert_eq!(work(folder.path(), &plan(&setup, 1)).0, 1);
     }
 }
 
 #[test]
 fn strangers_are_refused_and_leftovers_removed() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
-    work(folder.path(), plan(&setup, 1));
+    work(folder.path(), &plan(&setup, 1));
     let stranger = folder.path().join("records/0002-local-seed1.jsonl");
     fs::write(&stranger, "").unwrap();
-    let error = refused(folder.path(), plan(&setup, 1));
+    let error = refused(folder.path(), &plan(&setup, 1));
     assert!(
         error.message().contains("is no record of this study"),
         "{error}"
@@ -214,7 +218,7 @@ fn strangers_are_refused_and_leftovers_removed() {
         fs::write(folder.path().join(leftover), "half").unwrap();
     }
     fs::write(folder.path().join("notes.txt"), "mine").unwrap();
-    assert_eq!(work(folder.path(), plan(&setup, 1)).0, 0);
+    assert_eq!(work(folder.path(), &plan(&setup, 1)).0, 0);
     let left = ["notes.txt", "plan.json", "records", "study.lock"];
     assert_eq!(names(folder.path()), left);
     assert_eq!(names(&folder.path().join("records")).len(), 2);

@@ -10,7 +10,7 @@
     reason = "a failed preparation is a failed benchmark"
 )]
 
-#[path = "../../estimator/tests/common/mod.rs"]
+#[path = "../../crates/estimator/tests/common/mod.rs"]
 mod textbook;
 
 use std::sync::{LazyLock, OnceLock};
@@ -183,7 +183,7 @@ fn direct(
         let sigma = noise.feature_measurement_sigma;
         planned.extend(
             seen.iter()
-                .map(|&id| PlannedMeasurement::isotropic(id, sigma)),
+                .map(|&id| PlannedMeasurement::isotropic(id, sigma).unwrap()),
         );
         best = best.min(objective.after(&candidate.control, planned).unwrap());
     }
