@@ -9,7 +9,7 @@
 use std::collections::BTreeMap;
 
 use adslam_experiment::ExperimentError;
-use adslam_experiment::metrics::{DecisionTimes, RunSummary};
+use adslam_experiment::metrics::RunSummary;
 use adslam_experiment::run::{Interrupt, Observer, Setup, StepView, simulate};
 use adslam_experiment::scenario::PlannerName;
 use adslam_tests::{mean, setup, summaries};
@@ -27,7 +27,7 @@ fn departed(keys: &str) -> Setup {
 
 fn without_times(mut runs: Vec<RunSummary>) -> Vec<RunSummary> {
     for run in &mut runs {
-        run.decision_ms = DecisionTimes::default();
+        run.decision_ms = None;
     }
     runs
 }

@@ -9,7 +9,7 @@ mod golden_runs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use adslam_cli::{SelectionArgs, TablesArgs, exit_code, stop_on_ctrl_c, tables};
+use adslam_cli::{SelectionArgs, TablesArgs, exit_code, stop_on_signals, tables};
 use clap::Parser;
 
 use bench_report::BenchReportArgs;
@@ -51,7 +51,7 @@ enum Task {
 }
 
 fn main() -> ExitCode {
-    let interrupt = stop_on_ctrl_c();
+    let interrupt = stop_on_signals();
     match Task::parse() {
         Task::ReproduceTables {
             runs,

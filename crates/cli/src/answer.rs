@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 
 use crate::exit::code;
 use crate::paths::shown;
-use crate::print::{say, warn};
+use crate::print::{print, say, warn};
 
 /// An answer: lines for people as they come or, with `--json`, one object for machines at the end.
 /// Progress, warnings and explained errors go to the standard error stream either way.
@@ -37,7 +37,8 @@ impl Answer {
                 object.insert("exit_code".to_owned(), code(error).into());
                 object.insert("error".to_owned(), told(error));
             }
-            say(Value::Object(object));
+            let printed = print(Value::Object(object));
+            return result.and(printed);
         }
         result
     }

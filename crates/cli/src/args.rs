@@ -23,7 +23,7 @@ use crate::commands;
     about = "Active SLAM in deforming 3D environments",
     long_about = "Plans the motion of a robot that maps an object which moves and deforms, in \
                   simulation, and filters recorded logs.\n\nExit codes: 0 all went well, 1 the \
-                  work failed, 2 the input cannot be used, 130 interrupted.",
+                  work failed, 2 the input cannot be used, 130 stopped by a signal.",
     after_help = "Try:\n  adslam run scenarios/polygon.toml --planner combined --seed 1 --out run\n  \
                   adslam tables configs/paper.toml\n  \
                   adslam check scenarios/*.toml configs/*.toml sweeps/*.toml\n  \
@@ -40,8 +40,11 @@ pub struct Arguments {
 pub enum Command {
     /// Run one planner once and write the run down
     #[command(after_help = "Writes into the folder given with --out:\n  \
+        run.json       what the run is, and its files\n  \
+        scenario.toml  the scenario as it was run\n  \
         summary.json   the run in a few numbers\n  \
         steps.csv      a row a step, units in the header\n  \
+        pose_covariance.csv   of the estimated pose, a row a step\n  \
         features.csv   the features at the end\n  \
         truth.tum, estimate.tum   trajectories for the evo tools\n  \
         history.json   everything that adslam replay shows\n  \
@@ -146,6 +149,20 @@ pub enum Command {
 }
 
 impl Command {
+    /// Whether it looks at its interrupt as it goes on. The others are short, and end at once by what the system does
+    /// with a signal.
+    #[must_use]
+    pub const fn heeds_interrupts(&self) -> bool {
+        matches!(
+            self,
+            Self::Run(_)
+                | Self::Filter(_)
+                | Self::Tables(_)
+                | Self::Sweep(_)
+                | Self::Consistency(_)
+        )
+    }
+
     /// Does it.
     ///
     /// # Errors
@@ -162,14 +179,8 @@ impl Command {
             Self::Mesh(args) => commands::mesh(args),
             Self::Check(args) => commands::check(args),
             Self::New(file) => commands::new(file),
-            Self::Schema { kind } => {
-                commands::schema(*kind);
-                Ok(())
-            }
-            Self::Completions { shell } => {
-                commands::completions(*shell);
-                Ok(())
-            }
+            Self::Schema { kind } => commands::schema(*kind),
+            Self::Completions { shell } => commands::completions(*shell),
         }
     }
 }

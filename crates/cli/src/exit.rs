@@ -10,7 +10,7 @@ use crate::print::tell;
 pub const FAILURE: u8 = 1;
 /// The input cannot be used. The argument parser ends with it too.
 pub const BAD_INPUT: u8 = 2;
-/// Stopped by Ctrl-C.
+/// Stopped by Ctrl-C, SIGTERM or SIGHUP.
 pub const INTERRUPTED: u8 = 130;
 
 /// Prints what went wrong, if anything did, and returns the exit code.

@@ -19,4 +19,4 @@ pub use commands::{
     check, completions, export, filter, mesh, new, replay, run, schema, schema_text, sweep, tables,
 };
 pub use exit::{BAD_INPUT, FAILURE, INTERRUPTED, exit_code};
-pub use interrupt::stop_on_ctrl_c;
+pub use interrupt::stop_on_signals;

@@ -3,9 +3,16 @@
 use std::process::ExitCode;
 
 use adslam_cli::Arguments;
+use adslam_experiment::run::Interrupt;
 use clap::Parser;
 
 fn main() -> ExitCode {
-    let interrupt = adslam_cli::stop_on_ctrl_c();
-    adslam_cli::exit_code(Arguments::parse().command.execute(interrupt))
+    let command = Arguments::parse().command;
+    let never = Interrupt::new();
+    let interrupt = if command.heeds_interrupts() {
+        adslam_cli::stop_on_signals()
+    } else {
+        &never
+    };
+    adslam_cli::exit_code(command.execute(interrupt))
 }

@@ -1,10 +1,26 @@
-//! Printing that never fails: a reader that has gone away, as in `adslam … | head`, is no reason to
-//! panic or to lose work. Results are files, and verdicts are exit codes.
+//! Printing. A reader that has gone away, as in `adslam … | head`, is no reason to panic or to lose work.
 
 use std::fmt::Display;
-use std::io::{Write, stderr, stdout};
+use std::io::{ErrorKind, Write, stderr, stdout};
 
-/// Prints a line on the standard output.
+use adslam_experiment::ExperimentError;
+
+/// Prints what was asked for on the standard output.
+///
+/// # Errors
+/// [`ExperimentError::Output`] where it cannot be written, as to a file on a full disk.
+pub(crate) fn print(text: impl Display) -> Result<(), ExperimentError> {
+    let mut out = stdout().lock();
+    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+        Err(cause) if cause.kind() != ErrorKind::BrokenPipe => Err(ExperimentError::Output {
+            path: "the standard output".into(),
+            cause,
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Prints a line for people on the standard output, if that is possible: results are files, and verdicts exit codes.
 pub(crate) fn say(text: impl Display) {
     let _ = writeln!(stdout().lock(), "{text}");
 }

@@ -22,7 +22,7 @@ pub use explain::nearest;
 pub(crate) use key_path::json_at;
 pub use kind::FileKind;
 pub(crate) use overlay::Layer;
-pub(crate) use text_file::read_text;
+pub(crate) use text_file::{is_there, read_text};
 
 /// Input that cannot be used: a file that cannot be read, or whose content is wrong.
 ///

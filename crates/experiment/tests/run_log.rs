@@ -75,7 +75,9 @@ fn the_same_bits(scenario: &Scenario, planner: PlannerName) -> (RunSummary, Stri
     let run = simulate(&setup, planner, 3, &interrupt, &mut watch)
         .unwrap()
         .summary;
-    let path = watch.log.commit().unwrap();
+    let file = watch.log.finish();
+    let path = file.path().to_owned();
+    file.commit().unwrap();
     let log = fs::read_to_string(&path).unwrap();
 
     let mut again = Vec::new();

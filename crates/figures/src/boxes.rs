@@ -92,10 +92,10 @@ const COLUMNS: [Column; 15] = [
         Some(r.compromised_decisions as f64)
     }),
     column("Decision time, median", "ms", Log, |r| {
-        Some(r.decision_ms.median)
+        r.decision_ms.map(|times| times.median)
     }),
     column("Decision time, 95th percentile", "ms", Log, |r| {
-        Some(r.decision_ms.p95)
+        r.decision_ms.map(|times| times.p95)
     }),
 ];
 

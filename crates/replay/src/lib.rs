@@ -25,12 +25,24 @@ pub use page::MOST_RUNS;
 /// Too few or too many runs, a history that does not fit together, or a file that cannot be
 /// written; what lay at `out` is then unchanged.
 pub fn write_html(histories: &[&RunHistory], out: &Path) -> Result<usize, ExperimentError> {
-    let page = html(histories).map_err(|reason| {
-        InputError::about_file(out, format_args!("no replay can be made: {reason}"))
-            .with_help("give the folders of one or two runs of this version of adslam")
-    })?;
+    let page = page_for(histories, out)?;
     AtomicFile::with_content(out, page.as_bytes())?.commit()?;
     Ok(page.len())
+}
+
+/// The page of one or two runs as a file that will lie at `out`; it still has to be committed.
+///
+/// # Errors
+/// As [`write_html`].
+pub fn to_file(histories: &[&RunHistory], out: &Path) -> Result<AtomicFile, ExperimentError> {
+    AtomicFile::with_content(out, page_for(histories, out)?.as_bytes())
+}
+
+fn page_for(histories: &[&RunHistory], out: &Path) -> Result<String, InputError> {
+    html(histories).map_err(|reason| {
+        InputError::about_file(out, format_args!("no replay can be made: {reason}"))
+            .with_help("give the folders of one or two runs of this version of adslam")
+    })
 }
 
 /// The page of one or two runs.

@@ -1,14 +1,18 @@
 //! `adslam completions`
 
+use adslam_experiment::ExperimentError;
 use clap::CommandFactory;
 use clap_complete::Shell;
 
 use crate::Arguments;
-use crate::print::say;
+use crate::print::print;
 
 /// Prints a script that makes a shell complete the command's arguments.
-pub fn completions(shell: Shell) {
+///
+/// # Errors
+/// A standard output that cannot be written to.
+pub fn completions(shell: Shell) -> Result<(), ExperimentError> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "adslam", &mut script);
-    say(String::from_utf8_lossy(&script).trim_end());
+    print(String::from_utf8_lossy(&script).trim_end())
 }

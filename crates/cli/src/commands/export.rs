@@ -3,7 +3,7 @@
 use adslam_experiment::ExperimentError;
 use adslam_experiment::diagnostics::InputError;
 use adslam_experiment::output::prepare_folder;
-use adslam_experiment::run::RunHistory;
+use adslam_experiment::run::{StoredRun, refuse_part_of_run};
 use adslam_export::{Period, write_csv, write_mcap, write_ply};
 
 use crate::ExportArgs;
@@ -19,7 +19,9 @@ pub fn export(args: &ExportArgs) -> Result<(), ExperimentError> {
 }
 
 fn write(args: &ExportArgs, answer: &mut Answer) -> Result<(), ExperimentError> {
-    let history = RunHistory::load(&args.run)?;
+    refuse_part_of_run(&args.out)?;
+    let StoredRun { history, warnings } = StoredRun::load(&args.run)?;
+    answer.warn(&warnings);
     let out = &args.out;
     let shown = out.display();
     answer.set("out", crate::paths::shown(out));

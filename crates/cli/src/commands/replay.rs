@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use adslam_experiment::ExperimentError;
 use adslam_experiment::output::prepare_folder;
-use adslam_experiment::run::RunHistory;
+use adslam_experiment::run::{RunHistory, StoredRun, refuse_part_of_run};
 
 use crate::ReplayArgs;
 use crate::answer::Answer;
@@ -19,9 +19,13 @@ pub fn replay(args: &ReplayArgs) -> Result<(), ExperimentError> {
 }
 
 fn make_page(args: &ReplayArgs, answer: &mut Answer) -> Result<(), ExperimentError> {
-    let load = |folder: &PathBuf| RunHistory::load(folder);
-    let histories: Vec<RunHistory> = args.runs.iter().map(load).collect::<Result<_, _>>()?;
-    let histories: Vec<&RunHistory> = histories.iter().collect();
+    refuse_part_of_run(&args.out)?;
+    let load = |folder: &PathBuf| StoredRun::load(folder);
+    let runs: Vec<StoredRun> = args.runs.iter().map(load).collect::<Result<_, _>>()?;
+    for run in &runs {
+        answer.warn(&run.warnings);
+    }
+    let histories: Vec<&RunHistory> = runs.iter().map(|run| &run.history).collect();
     prepare_folder(folder_of(&args.out))?;
     let bytes = adslam_replay::write_html(&histories, &args.out)?;
     answer.set("bytes", bytes);

@@ -2,9 +2,8 @@
 
 use adslam_experiment::ExperimentError;
 use adslam_experiment::log::LogRecorder;
-use adslam_experiment::output::prepare_folder;
 use adslam_experiment::run::{
-    Interrupt, Observer, RunRecorder, RunReport, Setup, StepView, simulate,
+    Interrupt, Observer, PAGE_FILE, RunRecorder, RunReport, Setup, StepView, simulate,
 };
 use adslam_experiment::scenario::{Named, Scenario};
 use indicatif::ProgressBar;
@@ -31,7 +30,6 @@ fn run_once(
     }
     let setup = Setup::new(&scenario)?;
     answer.warn(&setup.warnings);
-    prepare_folder(&args.out)?;
     let recorder = RunRecorder::create(&args.out, &setup, args.planner, args.seed, args.unit)?;
     let log = || LogRecorder::create(&args.out, &setup, args.planner, args.seed);
     let mut observer = Shown {
@@ -43,20 +41,17 @@ fn run_once(
     observer.bar.finish_and_clear();
     let outcome = result?;
     answer.warn(&outcome.warnings);
-    let page = args.out.join("replay.html");
-    if args.html {
-        adslam_replay::write_html(&[observer.recorder.history()], &page)?;
-    }
-    let log = observer.log.map(LogRecorder::commit).transpose()?;
+    let Shown { recorder, log, .. } = observer;
+    let page = || adslam_replay::to_file(&[recorder.history()], &args.out.join(PAGE_FILE));
+    let page = args.html.then(page).transpose()?;
+    let others = page.into_iter().chain(log.map(LogRecorder::finish));
     let warnings = [setup.warnings.as_slice(), &outcome.warnings].concat();
     let summary = &outcome.summary;
     let report = RunReport {
         summary,
         warnings: &warnings,
     };
-    let mut files = observer.recorder.commit(&report)?;
-    files.extend(log);
-    files.extend(args.html.then_some(page));
+    let files = recorder.commit(&report, others.collect())?;
     let coverage = summary
         .steps_to_full_coverage
         .map_or("not all seen".to_owned(), |step| {

@@ -1,14 +1,18 @@
 //! `adslam schema`
 
+use adslam_experiment::ExperimentError;
 use adslam_experiment::diagnostics::FileKind;
 use adslam_experiment::schema::json_schema;
 
 use crate::args::SchemaKind;
-use crate::print::say;
+use crate::print::print;
 
 /// Prints the JSON Schema of a kind of file.
-pub fn schema(kind: SchemaKind) {
-    say(schema_text(kind.into()).trim_end());
+///
+/// # Errors
+/// A standard output that cannot be written to.
+pub fn schema(kind: SchemaKind) -> Result<(), ExperimentError> {
+    print(schema_text(kind.into()).trim_end())
 }
 
 /// The JSON Schema of a kind of file as text that ends with a line break, as files do.

@@ -54,11 +54,11 @@ fn a_folder_that_is_not_writable() {
 #[test]
 fn a_folder_in_place_of_a_file() {
     let place = place();
-    fs::create_dir_all(place.path("out/steps.csv")).unwrap();
-    fs::create_dir_all(place.path("out/summary.json")).unwrap();
+    fs::create_dir_all(place.path("run/steps.csv")).unwrap();
+    fs::create_dir_all(place.path("run/summary.json")).unwrap();
     fs::create_dir_all(place.path("out/tables.json")).unwrap();
     for (arguments, name) in [
-        (&*format!("{RUN} out"), "summary.json"),
+        (&*format!("{RUN} run"), "summary.json"),
         ("filter log.jsonl --out out", "out"),
     ] {
         let said = format!("{name} is a folder, and a file goes there");
@@ -132,6 +132,29 @@ fn a_full_disk_loses_nothing() {
         1,
         "all files are of one run"
     );
+}
+
+/// What is asked for on the standard output, into a file on a full disk: a part of it is no success.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_behind_the_standard_output() {
+    let place = place();
+    for arguments in [
+        "schema scenario",
+        "completions bash",
+        "check polygon.toml --json",
+    ] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_adslam"))
+            .args(arguments.split(' '))
+            .current_dir(place.path(""))
+            .stdout(full)
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(FAILURE), "{arguments}: {said}");
+        assert!(said.contains("cannot write the standard output"), "{said}");
+    }
 }
 
 /// `adslam … | head`: the reader goes away, the files are written nevertheless.

@@ -32,6 +32,9 @@ mod new;
 mod replay;
 mod run;
 mod run_files;
+mod run_folder;
+#[cfg(unix)]
+mod run_folder_killed;
 mod schema;
 mod support;
 mod sweep;

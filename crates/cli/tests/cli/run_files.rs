@@ -55,11 +55,14 @@ fn every_file_column_and_key_is_documented() {
                 "run {world}.toml --planner {planner} --seed 2 --out {out} --html --log"
             ));
             assert_eq!(keys(&place.json(&format!("{out}/summary.json"))), *expected);
-            for table in ["steps.csv", "features.csv"] {
+            for table in ["steps.csv", "pose_covariance.csv", "features.csv"] {
                 let text = place.read(&format!("{out}/{table}"));
                 let columns: Vec<&str> = text.lines().next().unwrap().split(',').collect();
                 assert_eq!(columns, documented(&document, &format!("## {table}")));
             }
+            let mut run = keys(&place.json(&format!("{out}/run.json")));
+            run.retain(|key| !key.starts_with("files."));
+            assert_eq!(run, set("## run.json"));
             let written: BTreeSet<String> = fs::read_dir(place.path(&out))
                 .unwrap()
                 .map(|entry| entry.unwrap().file_name().into_string().unwrap())
@@ -74,6 +77,9 @@ fn every_file_column_and_key_is_documented() {
 fn units_are_those_of_the_columns() {
     let units = [
         ("_rad2_cm2", "rad² and cm²"),
+        ("_rad2", "rad²"),
+        ("_cm2", "cm²"),
+        ("_rad_times_cm", "rad · cm"),
         ("_rad_cm", "rad and cm"),
         ("_rad", "rad"),
         ("_cm", "cm"),

@@ -42,6 +42,11 @@ pub(crate) fn read_text(path: &Path, most_bytes: u64, remedy: &str) -> Result<St
     })
 }
 
+/// Whether there is anything at this path.
+pub(crate) fn is_there(path: &Path) -> Result<bool, InputError> {
+    std::fs::exists(path).map_err(|error| InputError::unreadable(path, error))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

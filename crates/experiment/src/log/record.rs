@@ -1,6 +1,6 @@
 //! A run written down as a log.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use adslam_estimator::StructureMeasurements;
 use adslam_models::State;
@@ -49,14 +49,10 @@ impl<'a> LogRecorder<'a> {
         })
     }
 
-    /// Completes the log and returns its path.
-    ///
-    /// # Errors
-    /// [`ExperimentError::Output`].
-    pub fn commit(self) -> Result<PathBuf, ExperimentError> {
-        let path = self.file.path().to_owned();
-        self.file.commit()?;
-        Ok(path)
+    /// Ends the log; its file still has to be committed.
+    #[must_use]
+    pub fn finish(self) -> AtomicFile {
+        self.file
     }
 
     fn header(&self, view: &StepView<'_>) -> LogHeader {

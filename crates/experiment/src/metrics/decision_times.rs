@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Times of the decisions of a run, in milliseconds. The only numbers that differ between two runs of
 /// the same seed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DecisionTimes {
     /// Half of them took less.
     pub median: f64,
@@ -15,9 +15,9 @@ pub struct DecisionTimes {
 }
 
 impl DecisionTimes {
-    /// Of durations in any order; zero if there are none.
+    /// Of durations in any order; none if there are no durations.
     #[must_use]
-    pub fn of(mut milliseconds: Vec<f64>) -> Self {
+    pub fn of(mut milliseconds: Vec<f64>) -> Option<Self> {
         milliseconds.sort_by(f64::total_cmp);
         let at = |quantile: f64| {
             // The nearest rank.
@@ -28,12 +28,12 @@ impl DecisionTimes {
                 reason = "a rank within the list"
             )]
             let index = (rank as usize).saturating_sub(1);
-            milliseconds.get(index).copied().unwrap_or(0.0)
+            milliseconds.get(index).copied()
         };
-        Self {
-            median: at(0.5),
-            p95: at(0.95),
-            max: at(1.0),
-        }
+        Some(Self {
+            median: at(0.5)?,
+            p95: at(0.95)?,
+            max: at(1.0)?,
+        })
     }
 }

@@ -76,8 +76,8 @@ pub struct RunSummary {
     /// What went wrong with measurements; absent where the scenario lets nothing go wrong.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub faults: Option<FaultCounts>,
-    /// Time to choose an action.
-    pub decision_ms: DecisionTimes,
+    /// Time to choose an action; absent where there was no decision.
+    pub decision_ms: Option<DecisionTimes>,
 }
 
 /// Adds up a run, step by step.
@@ -328,11 +328,11 @@ mod tests {
         );
         assert_eq!(
             run.decision_ms,
-            DecisionTimes {
+            Some(DecisionTimes {
                 median: 1.0,
                 p95: 3.0,
                 max: 3.0
-            }
+            })
         );
     }
 
@@ -342,6 +342,9 @@ mod tests {
         builder.add_step(1, [1, 0], &metrics(0.0), 1.0, 0.3);
         let run = builder.finish(1);
         assert_eq!((run.observed, run.steps_to_full_coverage), (0, Some(1)));
-        assert_eq!((run.pose_nees_mean, run.decision_ms.max), (None, 0.0));
+        assert_eq!((run.pose_nees_mean, run.decision_ms), (None, None));
+        let json = serde_json::to_value(&run).unwrap();
+        assert!(json["decision_ms"].is_null(), "{json}");
+        assert_eq!(serde_json::from_value::<RunSummary>(json).unwrap(), run);
     }
 }

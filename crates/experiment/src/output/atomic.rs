@@ -99,15 +99,67 @@ impl AtomicFile {
     /// # Errors
     /// [`ExperimentError::Output`]; unless a file cannot be renamed, nothing has changed then.
     pub fn commit_all(files: Vec<Self>) -> Result<(), ExperimentError> {
-        let complete = files
-            .into_iter()
-            .map(|Self { path, file }| match on_disk(file) {
-                Ok(file) => Ok((path, file)),
-                Err(error) => Err(ExperimentError::output(&path)(error)),
-            })
-            .collect::<Result<Vec<_>, _>>()?;
+        CompleteFile::place_all(Self::complete(files)?)
+    }
+
+    /// Puts the `files` of one folder in the place of `old` ones, so that it never holds some of these and some
+    /// of those: nothing changes before all are complete on the disk; then the `marker` is put there, the old
+    /// files are removed, and the others come in their order. The last of them should replace the marker, which
+    /// tells who was killed in between.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Output`].
+    pub(crate) fn replace_all(
+        marker: Self,
+        old: &[PathBuf],
+        files: Vec<Self>,
+    ) -> Result<(), ExperimentError> {
+        let marker = Self::complete(vec![marker])?;
+        let complete = Self::complete(files)?;
+        CompleteFile::place_all(marker)?;
+        for path in old {
+            fs::remove_file(path).map_err(ExperimentError::output(path))?;
+        }
+        CompleteFile::place_all(complete)
+    }
+
+    /// Sees to it that files are whole and on the disk.
+    fn complete(files: Vec<Self>) -> Result<Vec<CompleteFile>, ExperimentError> {
+        let complete = |Self { path, file }| match on_disk(file) {
+            Ok(file) => Ok(CompleteFile { path, file }),
+            Err(error) => Err(ExperimentError::output(&path)(error)),
+        };
+        files.into_iter().map(complete).collect()
+    }
+
+    /// The checksum of what has been written so far.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Output`].
+    pub(crate) fn checksum(&mut self) -> Result<String, ExperimentError> {
+        self.read_back().map_err(|error| self.failed(error))
+    }
+
+    fn read_back(&mut self) -> io::Result<String> {
+        self.file.flush()?;
+        let file = self.file.get_mut().as_file_mut();
+        file.rewind()?;
+        let sum = checksum(&mut *file)?;
+        file.seek(SeekFrom::End(0))?;
+        Ok(sum)
+    }
+}
+
+/// A file that is whole and on the disk, beside its place.
+struct CompleteFile {
+    path: PathBuf,
+    file: NamedTempFile,
+}
+
+impl CompleteFile {
+    fn place_all(files: Vec<Self>) -> Result<(), ExperimentError> {
         let mut folders = Vec::new();
-        for (path, file) in complete {
+        for Self { path, file } in files {
             file.persist(&path)
                 .map_err(|error| ExperimentError::output(&path)(error.error))?;
             let folder = folder_of(&path).to_owned();
@@ -119,6 +171,18 @@ impl AtomicFile {
             make_names_durable(&folder);
         }
         Ok(())
+    }
+}
+
+/// The CRC-32 of all bytes that are left to read, as text.
+pub(crate) fn checksum(mut from: impl io::Read) -> io::Result<String> {
+    let mut hasher = crc32fast::Hasher::new();
+    let mut bytes = vec![0; 1 << 16];
+    loop {
+        match from.read(&mut bytes)? {
+            0 => return Ok(format!("{:08x}", hasher.finalize())),
+            count => hasher.update(&bytes[..count]),
+        }
     }
 }
 
@@ -209,6 +273,52 @@ mod tests {
             let error = AtomicFile::create(Path::new("/dev/null")).unwrap_err();
             assert!(error.to_string().contains("a device"), "{error}");
         }
+    }
+
+    #[test]
+    fn files_are_replaced_together_and_a_marker_tells_of_half_of_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        for name in ["state", "a", "old"] {
+            write(&path(name), "first").unwrap();
+        }
+        let replace = |old: &[PathBuf]| {
+            let file = |name, text: &[u8]| AtomicFile::with_content(&path(name), text).unwrap();
+            let files = vec![file("a", b"second"), file("state", b"whole")];
+            AtomicFile::replace_all(file("state", b"half"), old, files)
+        };
+        let there = || {
+            let mut names: Vec<_> = fs::read_dir(folder.path())
+                .unwrap()
+                .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+                .collect();
+            names.sort();
+            (names.join(" "), fs::read_to_string(path("state")).unwrap())
+        };
+        // As if it was stopped in between: one of the old files cannot be removed.
+        assert!(replace(&[path("old"), path("absent"), path("a")]).is_err());
+        assert_eq!(there(), ("a state".to_owned(), "half".to_owned()));
+        replace(&[path("a")]).unwrap();
+        assert_eq!(there(), ("a state".to_owned(), "whole".to_owned()));
+        assert_eq!(fs::read(path("a")).unwrap(), b"second");
+    }
+
+    #[test]
+    fn a_checksum_is_that_of_all_that_was_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("long");
+        let mut file = AtomicFile::create(&path).unwrap();
+        let half = "0123456789".repeat(10_000);
+        file.add(&half).unwrap();
+        file.checksum().unwrap();
+        file.add(&half).unwrap();
+        let sum = file.checksum().unwrap();
+        file.commit().unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), half.repeat(2));
+        assert_eq!(
+            sum,
+            format!("{:08x}", crc32fast::hash(half.repeat(2).as_bytes()))
+        );
     }
 
     #[cfg(unix)]

@@ -1,26 +1,36 @@
-//! A run written down: steps.csv, features.csv, the trajectories, its history and summary.json.
+//! A run written down: its scenario, steps.csv, pose_covariance.csv, features.csv, the trajectories, its history,
+//! summary.json and run.json.
 
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use super::folder::{RunFolder, SCENARIO_FILE};
+use super::manifest::RunManifest;
 use super::{HistoryRecorder, Observer, RunHistory, Setup, StepView};
 use crate::ExperimentError;
 use crate::metrics::RunSummary;
-use crate::output::{AtomicFile, FeaturesFile, LastFeatures, StepsFile, TumFile, TumTime};
+use crate::output::{
+    AtomicFile, FeaturesFile, LastFeatures, PoseCovarianceFile, StepsFile, TumFile, TumTime,
+};
 use crate::scenario::{LengthUnit, PlannerName};
 
-/// Writes a run into a folder. The files appear when the run has finished, all complete.
+/// Writes a run into a folder. The files appear when the run has finished, all complete, in the place of the run that
+/// was there.
 #[derive(Debug)]
 pub struct RunRecorder<'a> {
-    folder: PathBuf,
     history: HistoryRecorder<'a>,
     summary: AtomicFile,
+    scenario: AtomicFile,
     steps: StepsFile,
+    pose_covariance: PoseCovarianceFile,
     features: FeaturesFile,
     truth: TumFile,
     estimate: TumFile,
     last: LastFeatures,
+    manifest: RunManifest,
+    path: PathBuf,
+    folder: RunFolder,
 }
 
 /// What summary.json holds.
@@ -34,11 +44,12 @@ pub struct RunReport<'a> {
 }
 
 impl<'a> RunRecorder<'a> {
-    /// Begins to write the run of `planner` with `seed` into `folder`, which must exist; the positions of the
-    /// trajectories in `unit`.
+    /// Begins to write the run of `planner` with `seed` into `folder`, which is made if need be and is locked until
+    /// the recorder is dropped; the positions of the trajectories in `unit`.
     ///
     /// # Errors
-    /// [`ExperimentError::Output`].
+    /// [`InputError`](crate::diagnostics::InputError) where the folder holds anything but a run, where another
+    /// process works in it and where it cannot be written to; [`ExperimentError::Output`].
     pub fn create(
         folder: &Path,
         setup: &'a Setup,
@@ -46,18 +57,25 @@ impl<'a> RunRecorder<'a> {
         seed: u64,
         unit: LengthUnit,
     ) -> Result<Self, ExperimentError> {
+        let scenario = setup.scenario.to_toml()?;
+        let lock = RunFolder::lock(folder)?;
         let feature_count = setup.world.rest.len();
+        let path = |name: &str| folder.join(name);
         let trajectory =
-            |name: &str| TumFile::create(&folder.join(name), TumTime::Step, LengthUnit::Cm, unit);
+            |name: &str| TumFile::create(&path(name), TumTime::Step, LengthUnit::Cm, unit);
         Ok(Self {
-            folder: folder.to_owned(),
             history: HistoryRecorder::new(setup, planner, seed),
-            summary: AtomicFile::create(&folder.join("summary.json"))?,
-            steps: StepsFile::create(&folder.join("steps.csv"), feature_count)?,
-            features: FeaturesFile::create(&folder.join("features.csv"), feature_count)?,
+            summary: AtomicFile::create(&path("summary.json"))?,
+            scenario: AtomicFile::with_content(&path(SCENARIO_FILE), scenario.as_bytes())?,
+            steps: StepsFile::create(&path("steps.csv"), feature_count)?,
+            pose_covariance: PoseCovarianceFile::create(&path("pose_covariance.csv"))?,
+            features: FeaturesFile::create(&path("features.csv"), feature_count)?,
             truth: trajectory("truth.tum")?,
             estimate: trajectory("estimate.tum")?,
             last: LastFeatures::default(),
+            manifest: RunManifest::new(setup, planner, seed),
+            path: folder.to_owned(),
+            folder: lock,
         })
     }
 
@@ -67,30 +85,36 @@ impl<'a> RunRecorder<'a> {
         self.history.history()
     }
 
-    /// Completes all files and returns their paths. summary.json comes last: where it is, the others
-    /// are.
+    /// Completes all files, and `others` that belong to the run, and returns their paths. Files of a run that was
+    /// there are removed before. run.json comes last: where it says so, the others are there and of one run.
     ///
     /// # Errors
-    /// [`ExperimentError::Output`].
-    pub fn commit(mut self, report: &RunReport<'_>) -> Result<Vec<PathBuf>, ExperimentError> {
+    /// [`ExperimentError::Output`]; unless a file cannot be renamed, nothing has changed then.
+    pub fn commit(
+        mut self,
+        report: &RunReport<'_>,
+        others: Vec<AtomicFile>,
+    ) -> Result<Vec<PathBuf>, ExperimentError> {
         self.summary.add_json(report)?;
-        let files = vec![
+        let mut files = vec![
+            self.scenario,
             self.steps.finish()?,
+            self.pose_covariance.finish()?,
             self.features.finish(&self.last)?,
             self.truth.finish(),
             self.estimate.finish(),
-            self.history.finish(&self.folder)?,
-            self.summary,
+            self.history.finish(&self.path)?,
         ];
-        let paths = files.iter().map(|file| file.path().to_owned()).collect();
-        AtomicFile::commit_all(files)?;
-        Ok(paths)
+        files.extend(others);
+        files.push(self.summary);
+        self.folder.replace(self.manifest, files)
     }
 }
 
 impl Observer for RunRecorder<'_> {
     fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
         self.steps.add(view)?;
+        self.pose_covariance.add(view)?;
         self.features.add(view);
         self.truth.add(view.step, view.pose)?;
         self.estimate.add(view.step, &view.belief.state.pose)?;

@@ -18,6 +18,7 @@ mod robot;
 pub(crate) mod tests;
 pub mod values;
 mod viewpoints;
+mod written;
 
 use std::path::{Path, PathBuf};
 

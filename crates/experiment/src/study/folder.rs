@@ -1,8 +1,8 @@
 //! The folder of a study: locked, of one plan, without litter.
 
 use std::collections::HashSet;
-use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Read, Write};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -11,8 +11,8 @@ use super::kept::{FORMAT, Grown, KeptPlan, VERSION};
 use super::record::RecordFile;
 use super::{OtherBuilds, StudyPlan, StudyUnit};
 use crate::ExperimentError;
-use crate::diagnostics::{InputError, read_text};
-use crate::output::{AtomicFile, make_folder, not_writable, prepare_folder};
+use crate::diagnostics::{InputError, is_there, read_text};
+use crate::output::{AtomicFile, FolderLock, make_folder, prepare_folder};
 use crate::provenance::Build;
 
 const LOCK: &str = "study.lock";
@@ -21,8 +21,11 @@ const RECORDS: &str = "records";
 const PARTIAL: &str = "partial";
 /// Larger plans are not ours: ten thousand points take some megabytes.
 const LARGEST_PLAN: u64 = 1 << 28;
+const WAIT: &str = "wait until it has ended, or stop it, and give the command again: it goes on with what is there; \
+    or give another folder with --out";
 /// Files that tell that a folder holds results of something else, where it holds no plan.
-const RESULTS: [&str; 7] = [
+const RESULTS: [&str; 8] = [
+    "run.json",
     "summary.json",
     "history.json",
     "steps.csv",
@@ -44,8 +47,7 @@ pub(super) struct StudyFolder {
     grown: Grown,
     /// The number of this build among those of the plan.
     build: usize,
-    /// Held until this is dropped. The system gives it back too when the process dies.
-    _lock: File,
+    _lock: FolderLock,
 }
 
 impl StudyFolder {
@@ -57,7 +59,7 @@ impl StudyFolder {
         other_builds: OtherBuilds,
     ) -> Result<(Self, Vec<StudyUnit<'a>>), ExperimentError> {
         make_folder(path)?;
-        let lock = locked(path)?;
+        let lock = FolderLock::take(path, LOCK, WAIT)?;
         let there = kept_plan(path)?;
         let build = Build::this();
         let mut grown = Grown::from(there.as_ref(), plan, &build).map_err(|differences| {
@@ -165,57 +167,6 @@ pub(super) fn checksum(bytes: &[u8]) -> String {
     format!("{:08x}", crc32fast::hash(bytes))
 }
 
-/// Takes the lock of a folder, and says in its file who is at work.
-fn locked(folder: &Path) -> Result<File, ExperimentError> {
-    let path = folder.join(LOCK);
-    let mut options = OpenOptions::new();
-    options.read(true).write(true).create(true).truncate(false);
-    let lock = options
-        .open(&path)
-        .map_err(|error| not_writable(folder, &error))?;
-    let cause = match lock.try_lock() {
-        Ok(()) => {
-            sign(&lock);
-            return Ok(lock);
-        }
-        Err(cause) => cause,
-    };
-    let shown = folder.display();
-    Err(match cause {
-        TryLockError::WouldBlock => {
-            let mut holder = String::new();
-            let read = lock.take(20).read_to_string(&mut holder);
-            let holder = match (read, holder.trim_end().parse::<u32>()) {
-                (Ok(_), Ok(process)) => format!(" (process {process})"),
-                _ => String::new(),
-            };
-            let message = format!("another adslam{holder} is at work in {shown}");
-            InputError::about_file(folder, message)
-                .with_help(
-                    "wait until it has ended, or stop it, and give the command again: it goes on with what is \
-                     there; or give another folder with --out",
-                )
-                .into()
-        }
-        TryLockError::Error(cause) if cause.kind() == io::ErrorKind::Unsupported => {
-            let message = format!("the file system of {shown} cannot lock files: {cause}");
-            InputError::about_file(folder, message)
-                .with_help("give a folder on a local disk with --out")
-                .into()
-        }
-        TryLockError::Error(cause) => ExperimentError::output(&path)(cause),
-    })
-}
-
-/// Writes the number of this process for whoever comes second to read. It is always as long, so that one write
-/// replaces that of a process which died here; the lock holds without it.
-fn sign(mut lock: &File) {
-    let signed = lock.write_all(format!("{:<10}\n", std::process::id()).as_bytes());
-    if signed.is_err() {
-        let _ = lock.set_len(0);
-    }
-}
-
 /// The plan of the study that the folder holds; none, if it holds nothing.
 fn kept_plan(folder: &Path) -> Result<Option<KeptPlan>, InputError> {
     let path = folder.join(PLAN);
@@ -265,11 +216,6 @@ struct PlanHead {
     format: String,
     #[serde(default)]
     version: u32,
-}
-
-/// Whether there is anything at this path.
-pub(super) fn is_there(path: &Path) -> Result<bool, InputError> {
-    fs::exists(path).map_err(|error| InputError::unreadable(path, error))
 }
 
 /// Refuses a folder of records with files of other names. Hidden ones are the system's business.

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::folder::{checksum, is_there};
+use super::folder::checksum;
 use crate::ExperimentError;
-use crate::diagnostics::{InputError, read_text};
+use crate::diagnostics::{InputError, is_there, read_text};
 use crate::output::AtomicFile;
 use crate::provenance::Build;
 

@@ -6,7 +6,7 @@ use super::{ExperimentTables, PlannerRuns, SourceFile, Tables};
 use crate::ExperimentError;
 use crate::config::{Config, ExperimentPlan, Selection};
 use crate::diagnostics::InputError;
-use crate::metrics::{DecisionTimes, RunSummary};
+use crate::metrics::RunSummary;
 use crate::provenance::{Build, BuildRuns};
 use crate::run::warnings::merged;
 use crate::run::{Batch, Interrupt, Progress, Setup};
@@ -252,7 +252,7 @@ fn batch<'a>(unit: &StudyUnit<'a>, record: bool) -> Batch<'a> {
 /// What is the same whenever a run is done.
 fn timeless(run: &RunSummary) -> RunSummary {
     RunSummary {
-        decision_ms: DecisionTimes::default(),
+        decision_ms: None,
         ..run.clone()
     }
 }

@@ -68,10 +68,10 @@ impl ExperimentTables {
                 Some(r.compromised_decisions as f64)
             }),
             ("Decision time, median (ms)", 2, |r| {
-                Some(r.decision_ms.median)
+                r.decision_ms.map(|times| times.median)
             }),
             ("Decision time, 95th percentile (ms)", 2, |r| {
-                Some(r.decision_ms.p95)
+                r.decision_ms.map(|times| times.p95)
             }),
         ];
         let rows = lines.map(|(name, digits, of_run)| {

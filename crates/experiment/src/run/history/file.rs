@@ -1,6 +1,6 @@
 //! history.json: written whole, read with care.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
@@ -37,11 +37,17 @@ impl RunHistory {
     /// A file that is missing, of another kind or version, cut short, or whose parts do not fit
     /// each other.
     pub fn load(folder: &Path) -> Result<Self, InputError> {
+        let (path, text) = Self::text(folder)?;
+        Self::parse(&path, &text)
+    }
+
+    /// The path of the history in `folder`, and its text.
+    pub(in crate::run) fn text(folder: &Path) -> Result<(PathBuf, String), InputError> {
         let path = folder.join(HISTORY_FILE);
         let remedy = "give the folder of a run: `adslam run` writes history.json into it";
         let text =
             read_text(&path, LARGEST_FILE, remedy).map_err(|error| error.with_help(remedy))?;
-        Self::parse(&path, &text)
+        Ok((path, text))
     }
 
     /// Reads a history from `text`, the content of the file at `path`.

@@ -2,11 +2,12 @@
 
 use proptest::prelude::*;
 
+use super::written::given_back;
 use super::{HEART, POLYGON, ROTATING, miette_report, parsed};
 
 fn survives(text: &str) {
     match parsed(text) {
-        Ok(scenario) => drop(scenario.clone()),
+        Ok(scenario) => given_back(&scenario),
         Err(error) => drop((miette_report(&error), error.pointed_at().map(str::len))),
     }
 }

@@ -3,6 +3,7 @@
 mod anything;
 mod documented;
 mod shipped;
+mod written;
 mod wrong_choices;
 mod wrong_files;
 mod wrong_motions;

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use super::Folder;
-use crate::metrics::{DecisionTimes, RunSummary};
+use crate::metrics::RunSummary;
 use crate::study::SummaryRecord;
 use crate::sweep::{SweepPlan, SweepResults};
 
@@ -40,7 +40,7 @@ fn record(seed: u64, offset: f64) -> SummaryRecord {
         compromised_decisions: 0,
         limits_waived_decisions: 0,
         abandoned_viewpoints: 0,
-        decision_ms: DecisionTimes::default(),
+        decision_ms: None,
     };
     let warnings = vec!["polygon: no viewpoint sees features 3".to_owned()];
     SummaryRecord { summary, warnings }
