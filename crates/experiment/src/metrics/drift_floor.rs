@@ -149,6 +149,7 @@ mod tests {
             ..nothing
         };
         assert_eq!(at_step(&none_at_all, 4, 50).expected_error(), 0.0);
+        assert_eq!(at_step(&none_at_all, 4, 50), at_step(&none_at_all, 4, 1));
     }
 
     #[test]
