@@ -1,5 +1,5 @@
 //! Whatever sigmas a file states, up to fifteen powers of ten apart, an update is right to six digits in
-//! every direction or refused: held against fractions of 120 digits.
+//! every direction or refused: held against numbers of 120 digits.
 #![allow(
     clippy::unwrap_used,
     reason = "a helper that fails is a test that fails"
@@ -15,7 +15,6 @@ use adslam_estimator::{
 use adslam_models::{Control, FeatureId, Pose, feature_measurement};
 use common::{NOISE, every_pair};
 use nalgebra::{DVector, Matrix6, Point3, Vector3, Vector6};
-use num_traits::ToPrimitive;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -177,7 +176,7 @@ fn updated(
     let difference = belief.state.pose.minus(&start.state.pose);
     let moved = belief.state.features.iter().zip(&start.state.features);
     let moved = moved.flat_map(|(a, b)| <[f64; 3]>::from(a - b));
-    let delta = DVector::from_iterator(delta.len(), delta.iter().map(|d| d.to_f64().unwrap()));
+    let delta = DVector::from_iterator(delta.len(), delta.iter().map(exact::Float::to_f64));
     let found: Vec<f64> = difference.iter().copied().chain(moved).collect();
     let error = (DVector::from_vec(found) - &delta).amax() / delta.amax();
     assert!(error < RIGHT, "the estimate is off by {error:e}");

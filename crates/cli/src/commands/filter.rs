@@ -9,7 +9,7 @@ use adslam_experiment::ExperimentError;
 use adslam_experiment::diagnostics::InputError;
 use adslam_experiment::log::{FilterChoice, ReplaySummary, TailPolicy, Trajectory, filter_log};
 use adslam_experiment::output::{AtomicFile, prepare_folder};
-use adslam_experiment::run::Interrupt;
+use adslam_experiment::run::{Interrupt, refuse_part_of_run};
 use indicatif::ProgressBar;
 
 use crate::answer::Answer;
@@ -168,6 +168,9 @@ fn check_outputs(args: &FilterArgs) -> Result<(), InputError> {
         let message = "the estimates and the answer of --json would both go to the standard output";
         let help = "give --out a file, or leave --json out";
         return wrong(out, message.to_owned(), help);
+    }
+    for path in std::iter::once(out).chain(&args.tum) {
+        refuse_part_of_run(path)?;
     }
     if is_same(log, out) {
         let message = format!("{} is the log itself", out.display());

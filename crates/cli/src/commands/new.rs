@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use adslam_experiment::ExperimentError;
 use adslam_experiment::diagnostics::InputError;
 use adslam_experiment::output::{AtomicFile, prepare_folder};
+use adslam_experiment::run::refuse_part_of_run;
 use adslam_experiment::scenario::Scenario;
 
 use crate::answer::Answer;
@@ -67,6 +68,7 @@ fn write(
             .with_help("give another path with --out, or replace it with --force")
             .into());
     }
+    refuse_part_of_run(&out)?;
     let text = text(&out)?;
     prepare_folder(folder_of(&out))?;
     AtomicFile::with_content(&out, text.as_bytes())?.commit()?;

@@ -248,7 +248,7 @@ fn a_folder_with_anything_else_is_refused() {
 #[test]
 fn the_files_of_a_run_are_overwritten_by_no_other_command() {
     let place = place();
-    place.succeeds(&format!("{RUN} run"));
+    place.succeeds(&format!("{RUN} run --log"));
     let words = [
         "is a part of the run in its folder",
         "give another path with --out",
@@ -257,6 +257,9 @@ fn the_files_of_a_run_are_overwritten_by_no_other_command() {
         "replay run --out run/history.json",
         "export run --format csv --out run/steps.csv",
         "export run --format mcap --out run/run.json",
+        "filter run/log.jsonl --out run/steps.csv",
+        "filter run/log.jsonl --out estimates.jsonl --tum run/truth.tum",
+        "new scenario --out run/scenario.toml --force",
     ] {
         place.refuses(command, &words);
     }

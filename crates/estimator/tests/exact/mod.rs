@@ -1,46 +1,34 @@
-//! Algorithm 1's covariance in fractions of 120 digits: as good as exact, whatever the sigmas.
+//! Algorithm 1's covariance in numbers of 400 bits: as good as exact, whatever the sigmas.
 #![allow(dead_code, reason = "each test file uses a part")]
+
+mod float;
 
 use adslam_estimator::{Belief, FeatureMeasurement, FilterNoise, PairMeasurement};
 use adslam_models::{Control, State, motion_jacobian};
 use nalgebra::{DMatrix, DVector};
-use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{One, ToPrimitive, Zero};
 
 use crate::common::{covariance_matrix, stacked};
+pub use float::Float;
 
-/// A matrix of fractions, row by row.
-pub type Exact = Vec<Vec<BigRational>>;
+/// A matrix, row by row.
+pub type Exact = Vec<Vec<Float>>;
 
 pub fn exact(m: &DMatrix<f64>) -> Exact {
-    let fraction = |x: f64| BigRational::from_float(x).expect("finite");
     m.row_iter()
-        .map(|row| row.iter().map(|x| fraction(*x)).collect())
+        .map(|row| row.iter().map(|x| Float::from(*x)).collect())
         .collect()
 }
 
-/// Bits that are kept of each number, more than 120 digits.
-const BITS: u64 = 400;
-
-/// The number to [`BITS`] bits: all of them would take more room with every operation.
-fn rounded(x: &BigRational) -> BigRational {
-    let shift = (BITS + x.denom().bits()).saturating_sub(x.numer().bits());
-    let mantissa = (x.numer() << shift) / x.denom();
-    BigRational::new(mantissa, BigInt::one() << shift)
+/// xᵀy, over the entries of x that are not zero.
+fn dot<'a>(x: &[Float], y: impl IntoIterator<Item = &'a Float>) -> Float {
+    let terms = x.iter().zip(y).filter(|(x, _)| !x.is_zero());
+    terms.fold(Float::zero(), |sum, (x, y)| &sum + &(x * y))
 }
 
 fn product(a: &Exact, b: &Exact) -> Exact {
-    let columns = b.first().map_or(0, Vec::len);
+    let columns = transposed(b);
     a.iter()
-        .map(|row| {
-            (0..columns)
-                .map(|j| {
-                    let terms = row.iter().zip(b).filter(|(x, _)| !x.is_zero());
-                    terms.fold(BigRational::zero(), |sum, (x, other)| sum + x * &other[j])
-                })
-                .collect()
-        })
+        .map(|row| columns.iter().map(|column| dot(row, column)).collect())
         .collect()
 }
 
@@ -65,7 +53,7 @@ pub fn propagated(p: &Exact, state: &State, control: &Control, noise: &FilterNoi
     let f = exact(&f);
     let mut moved = product(&product(&f, p), &transposed(&f));
     for i in 0..n {
-        moved[i][i] += &exact(&DMatrix::from_element(1, 1, q[i] * q[i]))[0][0];
+        moved[i][i] = &moved[i][i] + &Float::from(q[i] * q[i]);
     }
     moved
 }
@@ -77,29 +65,20 @@ pub fn updated(
     features: &[FeatureMeasurement],
     pairs: &[PairMeasurement],
     noise: &FilterNoise,
-) -> (Exact, Vec<BigRational>) {
+) -> (Exact, Vec<Float>) {
     let (h, o, y) = stacked(state, features, pairs, noise);
-    let (h, o, y) = (
-        exact(&h),
-        exact(&DMatrix::from_columns(&[o])),
-        exact(&DMatrix::from_columns(&[y])),
-    );
     let n = p.len();
     let mut p = p.clone();
-    let mut delta = vec![BigRational::zero(); n];
-    for (row, (o, y)) in h.iter().zip(o.iter().zip(&y)) {
-        let dot = |v: &[BigRational]| -> BigRational {
-            let terms = row.iter().zip(v).filter(|(h, _)| !h.is_zero());
-            terms.fold(BigRational::zero(), |sum, (h, v)| sum + h * v)
-        };
-        let ph: Vec<BigRational> = p.iter().map(|row| dot(row)).collect();
-        let s = dot(&ph) + &o[0];
-        let innovation = &y[0] - dot(&delta);
+    let mut delta = vec![Float::zero(); n];
+    for (row, (o, y)) in exact(&h).iter().zip(o.iter().zip(&y)) {
+        let ph: Vec<Float> = p.iter().map(|of_p| dot(row, of_p)).collect();
+        let s = &dot(row, &ph) + &Float::from(*o);
+        let innovation = &Float::from(*y) - &dot(row, &delta);
         for i in 0..n {
-            let gain = rounded(&(&ph[i] / &s));
-            delta[i] = rounded(&(&delta[i] + &gain * &innovation));
+            let gain = &ph[i] / &s;
+            delta[i] = &delta[i] + &(&gain * &innovation);
             for j in 0..n {
-                p[i][j] = rounded(&(&p[i][j] - &gain * &ph[j]));
+                p[i][j] = &p[i][j] - &(&gain * &ph[j]);
             }
         }
     }
@@ -114,14 +93,13 @@ pub fn covariance(belief: &Belief) -> Exact {
 pub fn between(t: &DMatrix<f64>, belief: &Belief) -> DMatrix<f64> {
     let t = exact(t);
     let all = product(&product(&t, &covariance(belief)), &transposed(&t));
-    DMatrix::from_fn(all.len(), all.len(), |i, j| {
-        all[i][j].to_f64().expect("a number")
-    })
+    DMatrix::from_fn(all.len(), all.len(), |i, j| all[i][j].to_f64())
 }
 
 pub fn trace(p: &Exact) -> f64 {
-    let sum = (0..p.len()).fold(BigRational::zero(), |sum, i| sum + &p[i][i]);
-    sum.to_f64().expect("a number")
+    (0..p.len())
+        .fold(Float::zero(), |sum, i| &sum + &p[i][i])
+        .to_f64()
 }
 
 /// The largest part, over all directions, by which `found` differs from the covariance `right`: the norm of
@@ -138,28 +116,25 @@ pub fn relative_error(found: &Belief, right: &Exact) -> f64 {
     // Elimination of `right`, the same on the rows and columns of the error.
     for k in 0..n {
         let pivot = rest[k][k].clone();
-        assert!(
-            pivot > BigRational::zero(),
-            "the oracle is positive definite"
-        );
+        assert!(pivot.is_positive(), "the oracle is positive definite");
         for i in k + 1..n {
-            let factor = rounded(&(&rest[i][k] / &pivot));
+            let factor = &rest[i][k] / &pivot;
             if factor.is_zero() {
                 continue;
             }
             for j in 0..n {
-                rest[i][j] = rounded(&(&rest[i][j] - &factor * &rest[k][j]));
-                error[i][j] = rounded(&(&error[i][j] - &factor * &error[k][j]));
+                rest[i][j] = &rest[i][j] - &(&factor * &rest[k][j]);
+                error[i][j] = &error[i][j] - &(&factor * &error[k][j]);
             }
             for row in &mut error {
-                row[i] = rounded(&(&row[i] - &factor * &row[k]));
+                row[i] = &row[i] - &(&factor * &row[k]);
             }
         }
         pivots.push(pivot);
     }
     let scaled = DMatrix::from_fn(n, n, |i, j| {
-        let squared = &error[i][j] * &error[i][j] / (&pivots[i] * &pivots[j]);
-        squared.to_f64().expect("a number").sqrt()
+        let squared = &(&error[i][j] * &error[i][j]) / &(&pivots[i] * &pivots[j]);
+        squared.to_f64().sqrt()
     });
     scaled.norm()
 }

@@ -25,7 +25,8 @@ pub(super) fn tidy(schema: &mut Schema) {
             schema.insert("allOf".to_owned(), only);
         }
     }
-    if schema.get("default").is_some_and(Value::is_null) {
+    // Nor is there anything to read from a table of defaults, whose keys say theirs.
+    if let Some(Value::Null | Value::Object(_)) = schema.get("default") {
         schema.remove("default");
     }
     let choices = match schema.get("oneOf") {

@@ -38,7 +38,7 @@ mod tests {
             (5, 5, 0.025_f64.powf(0.2), 1.0),
             (0, 5, 0.0, 1.0 - 0.025_f64.powf(0.2)),
             (5, 10, 0.187_086, 0.812_914),
-            (1, 50, 0.000_506, 0.106_471),
+            (1, 50, 0.000_506, 0.106_470),
         ] {
             let interval = interval_of_share(some, all).unwrap();
             assert!((interval.low - low).abs() < 1e-6, "{some}: {interval:?}");

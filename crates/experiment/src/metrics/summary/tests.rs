@@ -93,6 +93,7 @@ fn counts_as_the_paper_does() {
 fn what_is_seen_at_the_start_counts_for_coverage() {
     let mut builder = SummaryBuilder::new(2);
     builder.add_step(1, [1, 0], &metrics(0.0), 1.0, 0.3);
+    builder.add_drift_floor(0.0);
     let run = builder.finish(1);
     assert_eq!((run.observed, run.steps_to_full_coverage), (0, Some(1)));
     assert_eq!((run.pose_nees_mean, run.decision_ms), (None, None));

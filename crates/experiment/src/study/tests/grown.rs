@@ -105,11 +105,15 @@ fn a_changed_default_is_seen() {
     work(folder.path(), &plan(&setup, 1));
     let path = folder.path().join("plan.json");
     let text = fs::read_to_string(&path).unwrap();
-    let other = text.replacen("\"crossing_penalty\": 1.0", "\"crossing_penalty\": 2.0", 1);
+    let other = text.replacen(
+        "\"crossing_penalty_cm\": 1.0",
+        "\"crossing_penalty_cm\": 2.0",
+        1,
+    );
     assert_ne!(other, text, "every key is there, its default too");
     fs::write(&path, other).unwrap();
     let said = refused(folder.path(), &plan(&setup, 1));
-    let key = "`planners.global.crossing_penalty` is 2.0 there and 1.0 here";
+    let key = "`planners.global.crossing_penalty_cm` is 2.0 there and 1.0 here";
     assert!(said.message().contains(key), "{said}");
 }
 
