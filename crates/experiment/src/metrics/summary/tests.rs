@@ -103,6 +103,19 @@ fn what_is_seen_at_the_start_counts_for_coverage() {
 }
 
 #[test]
+fn coverage_is_full_at_the_first_step_that_completes_it_or_never() {
+    let coverage = |steps: &[&[usize]]| {
+        let mut builder = SummaryBuilder::new(2);
+        for (i, visible) in steps.iter().enumerate() {
+            builder.add_step(1 + i, visible.iter().copied(), &metrics(0.0), 1.0, 0.3);
+        }
+        builder.finish(1).steps_to_full_coverage
+    };
+    assert_eq!(coverage(&[&[0], &[], &[0]]), None);
+    assert_eq!(coverage(&[&[0], &[1], &[], &[0, 1]]), Some(2));
+}
+
+#[test]
 fn what_is_at_a_bound_is_neither_inside_nor_too_near() {
     let mut builder = SummaryBuilder::new(2);
     for distance in [0.0, 0.3, 0.4] {
