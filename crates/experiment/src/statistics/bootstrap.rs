@@ -115,6 +115,23 @@ mod tests {
     }
 
     #[test]
+    fn as_much_is_left_out_above_as_below() {
+        let mut ranks: Vec<f64> = (0..RESAMPLES).map(|rank| rank as f64).rev().collect();
+        let Interval { low, high } = central(&mut ranks);
+        assert_eq!((low, high), (250.0, 9999.0 - 250.0));
+    }
+
+    #[test]
+    fn an_interval_holds_its_ends() {
+        let interval = Interval {
+            low: -1.0,
+            high: 2.0,
+        };
+        let held = [-1.1, -1.0, 0.0, 2.0, 2.1].map(|value| interval.contains(value));
+        assert_eq!(held, [false, true, true, true, false]);
+    }
+
+    #[test]
     fn the_confidence_is_what_the_documentation_says() {
         assert_eq!(BOOTSTRAP_CONFIDENCE, 0.95);
     }

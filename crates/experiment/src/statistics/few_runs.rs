@@ -124,6 +124,13 @@ mod tests {
         let root = 2f64.sqrt();
         assert!((two.low - (1.0 - root)).abs() < 1e-12, "{two:?}");
         assert!((two.high - (1.0 + root)).abs() < 1e-12, "{two:?}");
+        let three = interval_of_few(&[3.0, 0.0, 3.0], 1, Statistic::Mean).unwrap();
+        let factor = 1.5f64.sqrt();
+        assert!(
+            (three.low - (2.0 - 2.0 * factor)).abs() < 1e-12,
+            "{three:?}"
+        );
+        assert!((three.high - (2.0 + factor)).abs() < 1e-12, "{three:?}");
         let one_ends = interval_of_few(&[10.0, f64::INFINITY], 1, Statistic::Mean).unwrap();
         assert_eq!((one_ends.low, one_ends.high), (10.0, f64::INFINITY));
         // Of two draws from two values the smaller is the largest in one case of four.

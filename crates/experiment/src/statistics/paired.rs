@@ -128,6 +128,11 @@ mod tests {
     fn rounding_loses_no_tie() {
         let p = PairedComparison::of(&[0.1, 0.2, -0.3, 1.0]).unwrap().p;
         assert_eq!(p, 10.0 / 16.0);
+        // 4 − 4 + 2 + 8 + 2 = 12 in units of 100.1: twelve of the 32 sums are as large, in binary ten.
+        let p = PairedComparison::of(&[400.4, -400.4, 200.2, 800.8, 200.2])
+            .unwrap()
+            .p;
+        assert_eq!(p, 12.0 / 32.0);
     }
 
     #[test]

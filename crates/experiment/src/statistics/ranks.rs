@@ -89,6 +89,7 @@ mod tests {
     fn neither_of_a_pair_says_nothing() {
         let compared = RankComparison::of(&[(None, None), (Some(1.0), None)]).unwrap();
         assert_eq!((compared.equal, compared.p), (1, 1.0));
+        assert_eq!((compared.smaller, compared.larger), (1, 0));
         assert_eq!(RankComparison::of(&[]), None);
     }
 
