@@ -25,6 +25,7 @@ mod tests {
         assert_eq!(wrap_angle(PI), PI);
         assert_eq!(wrap_angle(-PI), PI);
         assert_eq!(wrap_angle(0.0), 0.0);
+        assert_eq!(wrap_angle(-1e-20), -1e-20, "to the last bit");
         assert!(wrap_angle(f64::INFINITY).is_nan());
     }
 

@@ -202,6 +202,16 @@ mod tests {
         }
     }
 
+    #[test]
+    fn of_triples_that_are_as_near_the_angles_stay() {
+        use std::f64::consts::FRAC_PI_2;
+        let reference = EulerAngles::new(FRAC_PI_2, FRAC_PI_2, FRAC_PI_2);
+        for (roll, yaw) in [(0.0, 0.0), (PI, PI)] {
+            let angles = EulerAngles::new(roll, FRAC_PI_2, yaw);
+            assert_eq!(angles.nearest_to(reference), angles);
+        }
+    }
+
     proptest! {
         /// The trace of the relative rotation knows nothing of triples and quaternions.
         #[test]

@@ -71,5 +71,6 @@ mod tests {
         state.move_features(&[Vector3::x(), Vector3::y()]);
         assert_eq!(state.features[1], Point3::new(0.0, 1.0, 0.0));
         assert_eq!(state.features[2], Point3::origin());
+        assert_eq!(FeatureId(3).to_string(), "feature 3");
     }
 }

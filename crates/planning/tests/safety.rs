@@ -1,4 +1,8 @@
 //! Safe actions, and what is done where there is none, against their definition.
+#![allow(
+    clippy::unwrap_used,
+    reason = "a helper that fails is a test that fails"
+)]
 
 mod common;
 

@@ -58,6 +58,25 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    /// About an axis the Jacobian and its inverse are known in closed form without a difference of near numbers.
+    #[test]
+    fn of_small_angles_every_digit_is_right() {
+        for angle in [9.9e-4, 5e-4, 1e-5, -9.9e-4, 1.1e-3] {
+            let half: f64 = 0.5 * angle;
+            let theta = Vector3::z() * angle;
+            let jacobian = left_jacobian(&theta);
+            let side = 2.0 * half.sin().powi(2) / angle;
+            let digits = if angle.abs() < SMALL { 1.5e-15 } else { 1e-9 };
+            assert!((jacobian[(1, 0)] / side - 1.0).abs() < digits, "{angle}");
+            assert!((jacobian[(0, 0)] - angle.sin() / angle).abs() < 5e-16);
+            let inverse = left_jacobian_inverse(&theta);
+            assert_eq!(inverse[(0, 1)], half);
+            let digits = if angle.abs() < SMALL { 5e-16 } else { 1e-9 };
+            let error = inverse[(0, 0)] - half / half.tan();
+            assert!(error.abs() < digits, "{angle}");
+        }
+    }
+
     proptest! {
         #[test]
         fn the_inverse_is_the_inverse_at_any_angle(

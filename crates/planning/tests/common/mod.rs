@@ -1,5 +1,9 @@
 //! A robot at a small solid, for the tests of planners.
 #![allow(dead_code, reason = "each test file uses a part")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a helper that fails is a test that fails"
+)]
 
 use std::sync::Arc;
 
