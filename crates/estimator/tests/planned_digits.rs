@@ -65,7 +65,6 @@ fn planned_traces_are_right_to_six_digits_or_refused() {
             match trace {
                 Ok(trace) => {
                     let error = (trace / expected - 1.0).abs();
-                    let error = (trace / expected - 1.0).abs();
                     assert!(
                         error <= RIGHT,
                         "run {run}, {which}: {error:e} with {noise:?}"
