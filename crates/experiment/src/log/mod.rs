@@ -5,7 +5,6 @@
 mod estimates;
 mod explain;
 mod format;
-mod header;
 mod lines;
 mod read;
 mod record;
