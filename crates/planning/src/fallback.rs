@@ -133,3 +133,30 @@ impl Way {
             && (self.clearance == best.clearance || self.clearance >= best.clearance - rounding)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clearances_are_equal_up_to_the_rounding_of_what_they_are_differences_of() {
+        let way = |clearance, scale| Way {
+            crossing: Crossing::Nothing,
+            clearance,
+            scale,
+        };
+        let equals = |clearance, scale| way(1.0 - clearance, 0.0).equals(&way(1.0, scale));
+        assert!(equals(1.5 * ties::TOLERANCE, 1.0));
+        assert!(!equals(3.0 * ties::TOLERANCE, 1.0));
+        assert!(equals(7.0 * ties::TOLERANCE, 7.0));
+        assert!(!equals(7.0 * ties::TOLERANCE, 1.0));
+        for none in [f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(way(none, 1.0).equals(&way(none, 1.0)), "{none}");
+        }
+        let worse = Way {
+            crossing: Crossing::Within,
+            ..way(1.0, 1.0)
+        };
+        assert!(!worse.equals(&way(1.0, 1.0)));
+    }
+}

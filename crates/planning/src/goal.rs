@@ -168,6 +168,15 @@ mod tests {
     }
 
     #[test]
+    fn what_comes_nearer_by_just_a_hundredth_stalls() {
+        let mut approach = Approach::new(100.0);
+        assert_eq!(
+            [5.0, 4.0, 3.75].map(|distance| approach.see(distance)),
+            [0, 1, 0]
+        );
+    }
+
+    #[test]
     fn no_goal_is_given_up_unless_asked_for() {
         let mut goals = Goals::new(vec![at(0.0), at(1.0)], 0.1).unwrap();
         assert!((0..1000).all(|_| goals.next_from(&at(0.5)).0 == 0 && goals.abandoned().is_none()));

@@ -49,6 +49,13 @@ mod tests {
         // The third is equal to the second, but not to the first, and starts a group of its own.
         let far = 1.0 + 1.8 * TOLERANCE;
         assert_eq!(sorted(vec![(far, 0), (near, 1), (1.0, 2)]), [1, 2, 0]);
+        // The tolerance is a share of the smallest and of the scale.
+        assert_eq!(sorted(vec![(1e3, 1), (1e3 * near, 0)]), [0, 1]);
+        for (scale, expected) in [(0.0, [1, 0]), (1e6, [0, 1])] {
+            let mut items = [(2.0, 0), (2.0 + 1e-7, 0), (1.0, 1), (1.0 + 1e-7, 0)];
+            sort(&mut items, scale, |item| item.0, |item| item.1);
+            assert_eq!([items[0].1, items[1].1], expected, "{scale}");
+        }
         assert_eq!(sorted(vec![(f64::NAN, 0), (f64::NAN, 1), (1.0, 2)])[0], 2);
     }
 

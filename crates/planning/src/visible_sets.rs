@@ -210,6 +210,35 @@ mod tests {
         }
     }
 
+    /// What lies exactly beside the robot is not ahead of it.
+    #[test]
+    fn beside_is_not_ahead() {
+        let points = [[0.0, 1.0], [0.5, 1.0], [0.5, 2.0], [0.0, 2.0]];
+        let points: Vec<Point3<f64>> = [-0.5, 0.5]
+            .into_iter()
+            .flat_map(|z| points.map(|[x, y]| Point3::new(x, y, z)))
+            .collect();
+        let topology = Arc::new(Topology::convex_hull(&points).unwrap());
+        let surface = Surface::new(&topology, &points).unwrap();
+        let sensor = Sensor {
+            min_range: 0.1,
+            max_range: 9.0,
+        };
+        let still = [0.0];
+        let actions = ActionSet::grid([&still; 3], [&still; 2], 1.0, 1.0);
+        let (index, control) = actions.staying();
+        let here = Candidate {
+            index,
+            control,
+            pose: Pose::default(),
+        };
+        let mut sets = VisibleSets::default();
+        sets.find(&[here], &actions, &sensor, &surface);
+        let mut ids = Vec::new();
+        VisibleSets::features(sets.set(0), &mut ids);
+        assert_eq!(ids, [FeatureId(1), FeatureId(5)]);
+    }
+
     #[test]
     fn containment_is_of_every_word() {
         assert!(VisibleSets::contains(&[0b111, 0b1], &[0b101, 0b1]));

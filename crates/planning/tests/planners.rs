@@ -59,3 +59,44 @@ fn they_head_for_a_viewpoint_and_score_what_ends_nearest_to_it() {
     }
     assert_eq!(to_goal.safe, model.actions.controls().len(), "all are safe");
 }
+
+#[test]
+fn they_say_which_viewpoint_they_gave_up() {
+    let features = [
+        [50.0, 0.0, 0.0],
+        [51.0, 0.0, 0.0],
+        [50.5, 1.0, 0.0],
+        [50.5, 0.0, 1.0],
+    ]
+    .map(Point3::from);
+    let (model, belief) = common::world(&features, Pose::default()).unwrap();
+    let situation = Situation {
+        belief: &belief,
+        feature_motion: &[Vector3::zeros(); 4],
+        model: &model,
+        time_is_up: None,
+    };
+    let viewpoints = [Point3::new(5.0, 0.0, 0.0), Point3::new(0.0, 5.0, 0.0)];
+    let goals = || {
+        let goals = Goals::new(viewpoints.to_vec(), 0.1).unwrap();
+        goals.giving_up_after(1)
+    };
+    let nearest = Nearest::Count(20);
+    let planners: [Box<dyn Planner>; 2] = [
+        Box::new(GlobalPlanner::new(goals())),
+        Box::new(CombinedPlanner::new(
+            goals(),
+            nearest,
+            PlanningNoise::default(),
+        )),
+    ];
+    for mut planner in planners {
+        // The robot does not move, whatever is decided.
+        for (goal, abandoned) in [(0, None), (1, Some(0)), (0, Some(1))] {
+            let decision = planner.decide(&situation).unwrap();
+            let at = |place: usize| (place, viewpoints[place]);
+            assert_eq!(decision.goal, Some(at(goal)));
+            assert_eq!(decision.abandoned, abandoned.map(at));
+        }
+    }
+}

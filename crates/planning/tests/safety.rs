@@ -2,16 +2,13 @@
 
 mod common;
 
-use std::sync::Arc;
-
 use adslam_estimator::Belief;
 use adslam_models::{Pose, predicted_pose};
 use adslam_planning::{
-    ActionSet, Candidate, CombinedPlanner, Decision, GlobalPlanner, Goals, LocalPlanner, Nearest,
-    ObjectSurfaces, Planner, PlanningModel, PlanningNoise, SafeActions, Situation,
+    ActionSet, Candidate, ObjectSurfaces, PlanningModel, SafeActions, Situation,
 };
-use adslam_surface::{Surface, Topology};
-use common::CLEARANCE;
+use adslam_surface::Surface;
+use common::{CLEARANCE, planners};
 use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
@@ -67,17 +64,6 @@ impl<'a> World<'a> {
         safe.find(&self.situation, [now, after]).unwrap();
         safe
     }
-}
-
-/// All planners that choose, on their way to `goal`.
-fn planners(goal: Point3<f64>) -> [Box<dyn Planner>; 3] {
-    let goals = || Goals::new(vec![goal], 0.1).unwrap();
-    let noise = PlanningNoise::default();
-    [
-        Box::new(LocalPlanner::new(noise)),
-        Box::new(GlobalPlanner::new(goals())),
-        Box::new(CombinedPlanner::new(goals(), Nearest::Fraction(0.3), noise)),
-    ]
 }
 
 /// With the action that changes nothing or without.
@@ -149,6 +135,8 @@ proptest! {
         model.clearance = clearance;
         let feature_motion: Vec<_> = motion[..features.len()].iter().copied().map(Vector3::from).collect();
         let world = World::new(&model, &belief, &feature_motion);
+        let kept = |control| model.actions.admits(predicted_pose(&pose, control).orientation);
+        let admissible = model.actions.controls().iter().filter(|control| kept(control)).count();
         for mut planner in planners(Point3::from(goal)) {
             let decision = planner.decide(&world.situation)?;
             let end = predicted_pose(&pose, &decision.control);
@@ -157,111 +145,9 @@ proptest! {
             prop_assert!(!decision.compromised || decision.limits_waived || gained > -1e-9, "{decision:?}");
             prop_assert_eq!(decision.limits_waived, !model.actions.admits(end.orientation));
             prop_assert_eq!(decision.compromised, decision.safe == 0);
+            prop_assert_eq!(decision.admissible, admissible);
         }
     }
-}
-
-/// Plates across the x axis, each over a range of x (cm), as one surface.
-fn plates(ranges: &[[f64; 2]]) -> (Arc<Topology>, Vec<Point3<f64>>) {
-    let mut points = Vec::new();
-    let mut faces = Vec::new();
-    for range in ranges {
-        let first = points.len();
-        for x in range {
-            for (y, z) in [(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)] {
-                points.push(Point3::new(*x, y, z));
-            }
-        }
-        let mut quad = |corners: [usize; 4]| {
-            let [a, b, c, d] = corners.map(|i| first + i);
-            faces.extend([[a, b, c], [a, c, d]]);
-        };
-        quad([3, 2, 1, 0]);
-        quad([4, 5, 6, 7]);
-        for i in 0..4 {
-            let j = (i + 1) % 4;
-            quad([i, j, 4 + j, 4 + i]);
-        }
-    }
-    (
-        Arc::new(Topology::from_faces(&points, &faces).unwrap()),
-        points,
-    )
-}
-
-/// What the planners decide at `x`, where they can step by `dx` along x and the plates move by `motion`, and where it
-/// leads; all agree.
-fn decided(
-    ranges: &[[f64; 2]],
-    x: f64,
-    clearance: f64,
-    dx: &[f64],
-    motion: f64,
-) -> (f64, Decision) {
-    let (topology, points) = plates(ranges);
-    let pose = Pose::new(Default::default(), Point3::new(x, 0.0, 0.0));
-    let (mut model, belief) = common::world(&points, pose).unwrap();
-    model.topology = topology;
-    model.clearance = clearance;
-    model.actions = ActionSet::grid([&[0.0], &[0.0], &[0.0]], [dx, &[0.0]], 0.6, 0.6);
-    let feature_motion = vec![Vector3::new(motion, 0.0, 0.0); points.len()];
-    let world = World::new(&model, &belief, &feature_motion);
-    let decisions = planners(Point3::new(3.0, 0.0, 0.0)).map(|mut planner| {
-        let decision = planner.decide(&world.situation).unwrap();
-        let end = predicted_pose(&pose, &decision.control).position.x;
-        (end, decision)
-    });
-    assert!(
-        decisions.iter().all(|(end, _)| *end == decisions[0].0),
-        "{decisions:?}"
-    );
-    let [first, ..] = decisions;
-    first
-}
-
-/// A plate before the robot and a clearance that nothing keeps.
-#[test]
-fn the_way_through_a_plate_is_never_taken() {
-    let plate = [[1.0, 1.2]];
-    let end = |dx: &[f64]| {
-        let (end, decision) = decided(&plate, 0.5, 3.0, dx, 0.0);
-        assert!(decision.compromised && decision.safe == 0 && !decision.limits_waived);
-        end
-    };
-    assert_eq!(
-        end(&[0.0, 2.5]),
-        0.5,
-        "stays, although x = 3 clears the plate by more"
-    );
-    assert_eq!(
-        end(&[2.5]),
-        0.5,
-        "stays, although no action of the set does"
-    );
-    assert_eq!(end(&[0.25, 2.5]), 0.5, "nor goes nearer");
-    assert_eq!(end(&[-0.25, -1.5, 2.5]), -1.0, "goes back as far as it can");
-    // The plate comes nearer and will stand between the robot and where it would go.
-    assert_eq!(decided(&plate, 0.5, 3.0, &[0.45], -0.4).0, 0.5);
-}
-
-#[test]
-fn a_robot_inside_goes_out_and_not_in_again() {
-    // The farther end lies beyond the other plate.
-    let (end, decision) = decided(&[[0.0, 1.0], [2.0, 3.0]], 0.5, 0.3, &[1.0, 3.25], 0.0);
-    assert_eq!(end, 1.5);
-    assert!(decision.compromised);
-    // Too deep to get out at once: towards the nearer side.
-    assert_eq!(decided(&[[0.0, 4.0]], 1.0, 0.3, &[-0.5, 0.5], 0.0).0, 0.5);
-    assert_eq!(
-        decided(&[[0.0, 4.0]], 1.0, 0.3, &[1.0], 0.0).0,
-        1.0,
-        "stays rather than goes deeper"
-    );
-    // The plate will be where the robot is: it goes ahead of it, not through it.
-    assert_eq!(
-        decided(&[[1.0, 1.2]], 0.9, 0.05, &[-0.3, 0.8], -0.2).0,
-        0.9 - 0.3
-    );
 }
 
 #[test]

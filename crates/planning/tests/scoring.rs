@@ -147,6 +147,10 @@ fn when_time_is_up_the_best_so_far_is_taken() {
     };
     let (all, scores) = decide(usize::MAX);
     assert!(scores.len() > 3);
+    assert!(
+        scores.len() < all.safe,
+        "what is sure to be worse is passed over"
+    );
     for time in 1..=3 {
         let (decision, scores_in_time) = decide(time);
         assert_eq!(scores_in_time, scores[..decision.scored], "a start of all");

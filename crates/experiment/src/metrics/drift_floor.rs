@@ -120,6 +120,15 @@ mod tests {
         }
     }
 
+    /// The mean of the Maxwell law of scale σ is 2σ√(2/π).
+    #[test]
+    fn the_expected_error_is_the_mean_distance_of_three_gaussians() {
+        let floor = at_step(&NOISE, 14, 30);
+        let mean = 2.0 * floor.sigma() * std::f64::consts::FRAC_2_PI.sqrt();
+        assert_relative_eq!(floor.expected_error(), mean, max_relative = 1e-14);
+        assert!(floor.sigma() > 0.0);
+    }
+
     #[test]
     fn what_does_not_move_is_not_lost() {
         let still_robot = WorldNoise {
@@ -149,6 +158,7 @@ mod tests {
             ..nothing
         };
         assert_eq!(at_step(&none_at_all, 4, 50).expected_error(), 0.0);
+        assert_eq!(at_step(&none_at_all, 4, 50), at_step(&none_at_all, 4, 1));
     }
 
     #[test]

@@ -117,6 +117,20 @@ mod tests {
         assert!((expected - 137.0 / 60.0).abs() < 1e-3, "{expected}");
     }
 
+    /// Of single runs out of two: their mean less and more the sigma that two runs estimate, √2 for 0 and 2.
+    #[test]
+    fn few_values_are_spread_to_the_variance_that_they_estimate() {
+        let two = interval_of_few(&[2.0, 0.0], 1, Statistic::Mean).unwrap();
+        let root = 2f64.sqrt();
+        assert!((two.low - (1.0 - root)).abs() < 1e-12, "{two:?}");
+        assert!((two.high - (1.0 + root)).abs() < 1e-12, "{two:?}");
+        let one_ends = interval_of_few(&[10.0, f64::INFINITY], 1, Statistic::Mean).unwrap();
+        assert_eq!((one_ends.low, one_ends.high), (10.0, f64::INFINITY));
+        // Of two draws from two values the smaller is the largest in one case of four.
+        assert_eq!(Statistic::Largest.expected(&[2.0, 1.0], 2), 1.75);
+        assert_eq!(Statistic::Mean.expected(&[2.0, 1.0], 2), 1.5);
+    }
+
     #[test]
     fn what_never_happens_stays_so() {
         let never = f64::INFINITY;

@@ -169,6 +169,27 @@ mod tests {
     }
 
     #[test]
+    fn each_alone_can_happen() {
+        let never = Faults::default();
+        for alone in [
+            Faults {
+                outlier_probability: 0.1,
+                ..never
+            },
+            Faults {
+                missed_detection_probability: 0.1,
+                ..never
+            },
+            Faults {
+                dropped_structure_probability: 0.1,
+                ..never
+            },
+        ] {
+            assert!(alone.can_happen(), "{alone:?}");
+        }
+    }
+
+    #[test]
     fn nothing_happens_where_nothing_can() {
         assert!(!Faults::default().can_happen());
         for step in draws(&Faults::default(), 1).iter().take(3) {

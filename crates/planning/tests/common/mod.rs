@@ -5,7 +5,10 @@ use std::sync::Arc;
 
 use adslam_estimator::{Belief, FilterNoise};
 use adslam_models::{Pose, Sensor};
-use adslam_planning::{ActionSet, PlanningModel};
+use adslam_planning::{
+    ActionSet, CombinedPlanner, GlobalPlanner, Goals, LocalPlanner, Nearest, Planner,
+    PlanningModel, PlanningNoise,
+};
 use adslam_surface::Topology;
 use nalgebra::{Matrix6, Point3, Vector6};
 use proptest::prelude::*;
@@ -68,4 +71,15 @@ pub fn world(features: &[Point3<f64>], pose: Pose) -> Option<(PlanningModel, Bel
     let covariance = Matrix6::identity() * 1e-3;
     let belief = Belief::initial(pose, features.to_vec(), &covariance, 0.02).ok()?;
     Some((model, belief))
+}
+
+/// All planners that choose, on their way to `goal`.
+pub fn planners(goal: Point3<f64>) -> [Box<dyn Planner>; 3] {
+    let goals = || Goals::new(vec![goal], 0.1).unwrap();
+    let noise = PlanningNoise::default();
+    [
+        Box::new(LocalPlanner::new(noise)),
+        Box::new(GlobalPlanner::new(goals())),
+        Box::new(CombinedPlanner::new(goals(), Nearest::Fraction(0.3), noise)),
+    ]
 }

@@ -1,7 +1,23 @@
 //! The statistics of the world's noise, and what faults change.
 
+use adslam_deformation::{BackAndForth, Deformation};
+use adslam_models::predicted_pose;
+use std::sync::Arc;
+
 use super::*;
 use crate::world::NOISE;
+
+/// Of a world in which everything goes as planned.
+const SILENCE: WorldNoise = WorldNoise {
+    rotation_sigma: 0.0,
+    translation_sigma: 0.0,
+    feature_translation_sigma: 0.0,
+    feature_deformation_sigma: 0.0,
+    feature_measurement_sigma: 0.0,
+    structure_measurement_sigma: 0.0,
+    initial_feature_sigma: 0.0,
+    ..NOISE
+};
 
 fn model(noise: WorldNoise) -> WorldModel {
     let rest = (0..5)
@@ -174,4 +190,102 @@ fn truncation_cuts_the_tails() {
         assert!((ratio - 1.0).abs() < 0.022, "{limit}: {ratio}");
     }
     assert_eq!(NOISE.variance_of_standard(), 1.0);
+}
+
+/// Ten centimetres along z for each step.
+#[derive(Debug)]
+struct Rise;
+
+impl Deformation for Rise {
+    fn mode_count(&self) -> usize {
+        1
+    }
+
+    fn mode(&self, _: usize, _: &Point3<f64>) -> Vector3<f64> {
+        Vector3::z()
+    }
+
+    fn amount(&self, _: usize, time: f64) -> f64 {
+        10.0 * time
+    }
+}
+
+#[test]
+fn without_noise_everything_is_where_it_is_planned_to_be() {
+    for deformation in [DeformationNoise::Fresh, DeformationNoise::Accumulating] {
+        let mut model = model(WorldNoise {
+            deformation,
+            ..SILENCE
+        });
+        model.motion.translation = Arc::new(BackAndForth::new(Vector3::x()));
+        model.motion.deformation = Arc::new(Rise);
+        model.start = Pose::from_vector(&Vector6::new(0.1, 0.2, 0.3, 4.0, 5.0, 6.0));
+        let control = Control {
+            rotation: Vector3::new(0.01, -0.02, 0.3),
+            translation: Vector3::new(0.5, 0.0, -0.25),
+        };
+        let mut world = World::new(&model, 1);
+        let mut pose = model.start;
+        for (step, forth) in [(1, 0.0), (2, 1.0), (3, 0.0), (4, 1.0)] {
+            assert_eq!((world.step(), *world.pose()), (step, pose));
+            let shift = Vector3::new(forth, 0.0, 10.0 * step as f64);
+            for (p, rest) in world.features().iter().zip(&model.rest) {
+                assert!((p - (rest + shift)).norm() < 1e-12, "{p}");
+            }
+            assert_eq!(world.first_estimate(), world.features());
+            let measured = world.measure(&[FeatureId(3)]);
+            let place =
+                pose.orientation.rotation().inverse() * (world.features()[3] - pose.position);
+            assert_eq!(measured.features.len(), 1);
+            assert!((measured.features[0].1 - place).norm() < 1e-12);
+            pose = predicted_pose(&pose, &control);
+            world.advance(&control);
+        }
+    }
+}
+
+#[test]
+fn noise_that_accumulates_has_not_begun_at_the_start() {
+    let noise = WorldNoise {
+        deformation: DeformationNoise::Accumulating,
+        ..NOISE
+    };
+    let model = model(noise);
+    assert_eq!(World::new(&model, 1).features(), model.rest);
+}
+
+/// The variances of robot, measurement and first estimate over many runs, each within four standard errors.
+#[test]
+fn each_noise_has_its_own_sigma() {
+    let noise = WorldNoise {
+        feature_measurement_sigma: 0.7,
+        initial_feature_sigma: 0.4,
+        ..NOISE
+    };
+    let model = model(noise);
+    let runs = 1500;
+    let (mut motion, mut measured, mut first) = (Vector6::zeros(), 0.0, 0.0);
+    for seed in 0..runs {
+        let mut world = World::new(&model, seed);
+        let error = world.first_estimate()[1] - world.features()[1];
+        first += error.norm_squared() / 3.0;
+        world.advance(&Control::default());
+        let moved = world.pose().to_vector();
+        motion += moved.component_mul(&moved);
+        let z = world.measure(&[FeatureId(2)]).features[0].1;
+        let error = z - feature_measurement(world.pose(), &world.features()[2]);
+        measured += error.norm_squared() / 3.0;
+    }
+    let check = |sum: f64, sigma: f64, draws: f64| {
+        let ratio = sum / runs as f64 / (sigma * sigma);
+        assert!(
+            (ratio - 1.0).abs() < 4.0 * (2.0 / draws).sqrt(),
+            "{sigma}: {ratio}"
+        );
+    };
+    for k in 0..6 {
+        check(motion[k], if k < 3 { 0.02 } else { 0.03 }, runs as f64);
+    }
+    check(measured, 0.7, 3.0 * runs as f64);
+    check(first, 0.4, 3.0 * runs as f64);
 }
