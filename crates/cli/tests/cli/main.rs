@@ -6,6 +6,7 @@
     reason = "a helper that fails is a test that fails"
 )]
 
+mod bad_log_headers;
 mod bad_logs;
 mod bad_meshes;
 mod bad_output;

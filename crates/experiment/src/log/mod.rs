@@ -5,6 +5,7 @@
 mod estimates;
 mod explain;
 mod format;
+mod header;
 mod lines;
 mod read;
 mod record;
