@@ -24,7 +24,7 @@ const STEPS: usize = 40;
 const RUNS: u64 = 1000;
 
 /// As good as exact.
-const TINY: f64 = 1e-6;
+const TINY: f64 = 1e-5;
 
 fn model(deformation: DeformationNoise, truncate_at_sigmas: Option<f64>) -> WorldModel {
     let place = |i: usize| {

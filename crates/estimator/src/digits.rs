@@ -40,11 +40,15 @@ pub(crate) fn check_gain(gain: f64, dim: usize) -> Result<(), EstimatorError> {
     if gain <= largest {
         return Ok(());
     }
-    Err(EstimatorError::TooPrecise {
-        what: "planned measurements",
+    Err(too_precise("planned measurements", gain, largest))
+}
+
+fn too_precise(what: &'static str, gain: f64, largest: f64) -> EstimatorError {
+    EstimatorError::TooPrecise {
+        what,
         ratio: gain.sqrt(),
         largest: largest.sqrt(),
-    })
+    }
 }
 
 /// The stages of one update.
@@ -83,11 +87,7 @@ impl Stages {
         }
         // NaN and infinity as well.
         if !(gain * LEAST_PROGRESS <= self.last_gain && gain.is_finite()) {
-            return Err(EstimatorError::TooPrecise {
-                what: self.what,
-                ratio: gain.sqrt(),
-                largest: self.largest_gain.sqrt(),
-            });
+            return Err(too_precise(self.what, gain, self.largest_gain));
         }
         let weight = self.largest_gain / gain;
         self.last_gain = gain;
@@ -97,12 +97,49 @@ impl Stages {
 }
 
 /// Whether a number that was computed from terms as large as `magnitude` has six right digits.
-pub(crate) fn is_resolved(value: f64, magnitude: f64, dim: usize) -> bool {
+fn is_resolved(value: f64, magnitude: f64, dim: usize) -> bool {
     value >= magnitude * (rounding(dim) / TOLERANCE)
 }
 
-/// For each entry of the pose, its variance given the entries before it, and whether that has six right digits.
-pub(crate) fn resolved_given_earlier(p: &Matrix6<f64>) -> [bool; 6] {
+/// Refuses a variance of what `what` measure that has fewer than six right digits, where the terms that it was
+/// computed from are as large as `magnitude`.
+pub(crate) fn check_resolved(
+    what: &'static str,
+    variance: f64,
+    magnitude: f64,
+    dim: usize,
+) -> Result<(), EstimatorError> {
+    if is_resolved(variance, magnitude, dim) {
+        return Ok(());
+    }
+    // Rounding leaves no less of the terms, whatever its sign.
+    let left = variance.max(magnitude * f64::EPSILON);
+    Err(too_precise(what, magnitude / left, largest_gain(dim)))
+}
+
+/// What was known of the position apart from the orientation, or is added to it by noise, must still be there after
+/// a motion: a long way multiplies the uncertainty of the orientation into the position's. `before` and `after` are
+/// the covariances of the pose.
+pub(crate) fn check_motion_resolved(
+    before: &Matrix6<f64>,
+    after: &Matrix6<f64>,
+    translation_sigma: f64,
+) -> Result<(), EstimatorError> {
+    let (was, is) = (
+        resolved_given_earlier(before),
+        resolved_given_earlier(after),
+    );
+    for index in 3..6 {
+        if (was[index] || translation_sigma > 0.0) && !is[index] {
+            let value = after[(index, index)];
+            return Err(EstimatorError::LostInMotion { index, value });
+        }
+    }
+    Ok(())
+}
+
+/// For each entry of the pose, whether its variance given the entries before it has six right digits.
+fn resolved_given_earlier(p: &Matrix6<f64>) -> [bool; 6] {
     let mut rest = *p;
     let mut resolved = [false; 6];
     for k in 0..6 {

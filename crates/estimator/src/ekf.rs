@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use adslam_models::{Control, FeatureId, State, motion_jacobian, predicted_pose};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::digits::resolved_given_earlier;
+use crate::digits::check_motion_resolved;
 use crate::error_state::check_conversion;
 use crate::feature_update::FeatureUpdate;
 use crate::structure_update::StructureUpdate;
@@ -115,24 +115,6 @@ impl<E: ErrorState> Ekf<E> {
         &self.noise
     }
 
-    /// What was known of the position apart from the orientation, or is added to it by noise, must still be there
-    /// after a motion: a long way multiplies the uncertainty of the orientation into the position's.
-    fn check_motion_resolved(
-        &self,
-        before: [bool; 6],
-        belief: &Belief,
-    ) -> Result<(), EstimatorError> {
-        let pose = belief.covariance.pose();
-        let after = resolved_given_earlier(&pose);
-        for index in 3..6 {
-            if (before[index] || self.noise.translation_sigma > 0.0) && !after[index] {
-                let value = pose[(index, index)];
-                return Err(EstimatorError::LostInMotion { index, value });
-            }
-        }
-        Ok(())
-    }
-
     /// Moves the estimate by the correction in the coordinates of `E`, and the covariance with it.
     fn correct(
         &mut self,
@@ -172,11 +154,12 @@ impl<E: ErrorState> Estimator for Ekf<E> {
     ) -> Result<(), EstimatorError> {
         check_motion(belief, control, feature_motion)?;
         let jacobian = motion_jacobian(&belief.state.pose, control);
-        let before = resolved_given_earlier(&belief.covariance.pose());
+        let before = belief.covariance.pose();
         belief.state.pose = predicted_pose(&belief.state.pose, control);
         belief.state.move_features(feature_motion);
         belief.covariance.propagate(&jacobian, &self.noise);
-        self.check_motion_resolved(before, belief)?;
+        let after = belief.covariance.pose();
+        check_motion_resolved(&before, &after, self.noise.translation_sigma)?;
         if E::CONVERTS_ANGLES {
             let orientation = belief.state.pose.orientation;
             check_conversion(orientation, orientation)?;

@@ -146,7 +146,7 @@ pub enum EstimatorError {
     #[error("the gate of the feature measurements is {0}; it must be a number above 0")]
     BadGate(f64),
     /// A noise sigma that cannot be used.
-    #[error("the sigma of {what} is {value}; it must be {requirement}")]
+    #[error("the sigma of {what} is {value:?}; it must be {requirement}")]
     BadSigma {
         /// Which noise.
         what: &'static str,

@@ -6,11 +6,14 @@ use adslam_models::{
 };
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Point3, Vector3, Vector6};
 
-use crate::digits::{Stages, is_resolved};
+use crate::digits::{Stages, check_resolved};
 use crate::ekf::check_feature;
 use crate::linear_algebra::set_product;
 use crate::workspace::{Workspace, add_scaled, block_rows};
 use crate::{Belief, Covariance, EstimatorError, FeatureMeasurement, Nis, Parallelism};
+
+/// What is measured here, in errors.
+const FEATURES: &str = "feature measurements";
 
 /// What S is called in errors.
 const INNOVATION_COVARIANCE: &str = "innovation covariance of the feature measurements";
@@ -60,9 +63,15 @@ impl Sighting {
         }
     }
 
-    /// yᵀS⁻¹y of this measurement alone, `pose` being the pose's part of the covariance; nothing if S does not
-    /// have six right digits.
-    fn squared_distance(&self, covariance: &Covariance, pose: &Matrix6<f64>) -> Option<f64> {
+    /// yᵀS⁻¹y of this measurement alone, `pose` being the pose's part of the covariance.
+    ///
+    /// # Errors
+    /// [`EstimatorError::TooPrecise`] if S does not have six right digits.
+    fn squared_distance(
+        &self,
+        covariance: &Covariance,
+        pose: &Matrix6<f64>,
+    ) -> Result<f64, EstimatorError> {
         let FeatureMeasurementJacobians {
             pose: of_pose,
             feature: of_feature,
@@ -77,11 +86,13 @@ impl Sighting {
         let s = by_pose + mixed + mixed.transpose() + by_feature + self.noise;
         // Where pose and feature move together the terms cancel.
         let magnitude = by_pose.trace() + by_feature.trace();
-        if !is_resolved(s.symmetric_eigenvalues().min(), magnitude, covariance.dim()) {
-            return None;
-        }
-        let whitened = s.cholesky()?.solve(&self.innovation);
-        Some(self.innovation.dot(&whitened))
+        let smallest = s.symmetric_eigenvalues().min();
+        check_resolved(FEATURES, smallest, magnitude, covariance.dim())?;
+        let factor = s.cholesky().ok_or(EstimatorError::NotPositiveDefinite {
+            matrix: INNOVATION_COVARIANCE,
+            dim: 3,
+        })?;
+        Ok(self.innovation.dot(&factor.solve(&self.innovation)))
     }
 }
 
@@ -142,24 +153,18 @@ impl FeatureUpdate {
     /// expected.
     fn close_gate(&mut self, covariance: &Covariance, gate: f64) -> Result<(), EstimatorError> {
         let pose = covariance.pose();
-        let mut broken = false;
+        let mut failed = None;
         self.rejected.reserve(self.seen.len());
         self.sightings.retain(|sighting| {
-            let distance = sighting.squared_distance(covariance, &pose);
-            broken |= distance.is_none();
-            let believed = distance.is_some_and(|distance| distance <= gate);
-            if !believed {
-                self.rejected.push(sighting.feature);
+            match sighting.squared_distance(covariance, &pose) {
+                Ok(distance) if distance <= gate => return true,
+                Ok(_) => {}
+                Err(error) => failed = Some(error),
             }
-            believed
+            self.rejected.push(sighting.feature);
+            false
         });
-        if broken {
-            return Err(EstimatorError::NotPositiveDefinite {
-                matrix: INNOVATION_COVARIANCE,
-                dim: 3,
-            });
-        }
-        Ok(())
+        failed.map_or(Ok(()), Err)
     }
 
     /// The features whose measurements the gate kept out.
@@ -203,7 +208,7 @@ pub(crate) fn condition_on_features(
 ) -> Result<(), EstimatorError> {
     let dim = covariance.dim();
     workspace.prepare(dim, 1);
-    let mut stages = Stages::new("feature measurements", dim);
+    let mut stages = Stages::new(FEATURES, dim);
     while let Some(weight) = stages.next(gain(covariance, sightings))? {
         for block in sightings.chunks(block_rows(dim) / 3) {
             workspace.start_block(3 * block.len());

@@ -1,14 +1,16 @@
 //! The χ² gate on feature measurements.
 
+#![allow(clippy::panic, reason = "a helper that fails is a test that fails")]
+
 mod common;
 
 use adslam_estimator::{
-    Belief, EstimatorError, EstimatorKind, FeatureMeasurement, Measurements, Parallelism,
-    StructureMeasurements, UpdateReport,
+    Belief, Covariance, EstimatorError, EstimatorKind, FeatureMeasurement, FilterNoise,
+    Measurements, Parallelism, StructureMeasurements, UpdateReport,
 };
-use adslam_models::{FeatureId, feature_measurement};
+use adslam_models::{FeatureId, Pose, feature_measurement};
 use common::{NOISE, covariance_matrix};
-use nalgebra::Vector3;
+use nalgebra::{Matrix6, Point3, Vector3};
 use proptest::prelude::*;
 
 const COUNT: usize = 12;
@@ -100,4 +102,51 @@ fn a_gate_must_be_a_number_above_zero() {
             .build(NOISE, Some(f64::INFINITY), Parallelism::Sequential)
             .is_ok()
     );
+}
+
+/// Robot and feature known together to 1e-5 cm, and not at all where: S is what their variances leave of each other.
+#[test]
+fn a_gate_that_lost_its_digits_says_that_the_sigmas_are_too_far_apart() -> Result<(), EstimatorError>
+{
+    const FAR: f64 = 1e4;
+    let features = vec![Point3::new(1.0, 2.0, 3.0)];
+    let start = Belief::initial(Pose::default(), features, &Matrix6::zeros(), 0.0)?;
+    // All positions are off by the same, and each by a little of its own.
+    let covariance = Covariance::from_lower(9, |i, j| match (i, j) {
+        (0..3, _) | (_, 0..3) => f64::from(u8::from(i == j)) * 1e-12,
+        _ if i == j => FAR * FAR,
+        _ if i % 3 == j % 3 => FAR * FAR - 1e-10,
+        _ => 0.0,
+    });
+    let belief = Belief {
+        covariance,
+        ..start
+    };
+    let measurement = FeatureMeasurement {
+        feature: FeatureId(0),
+        z: belief.state.features[0].coords,
+    };
+    let noise = FilterNoise {
+        feature_measurement_sigma: 1e-5,
+        ..NOISE
+    };
+    let mut estimator =
+        EstimatorKind::EulerEkf.build(noise, Some(GATE), Parallelism::Sequential)?;
+    let error = estimator.update(
+        &mut belief.clone(),
+        &Measurements {
+            features: &[measurement],
+            structure: StructureMeasurements::None,
+        },
+    );
+    match error {
+        Err(EstimatorError::TooPrecise { ratio, largest, .. }) => {
+            assert!(
+                largest < ratio && ratio < 1e8,
+                "{ratio:e} against {largest:e}"
+            );
+        }
+        other => panic!("{other:?}"),
+    }
+    Ok(())
 }

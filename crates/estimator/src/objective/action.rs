@@ -33,11 +33,21 @@ pub(super) struct ActionTerms {
 }
 
 impl ActionTerms {
-    /// The trace of the covariance after the action with this set, and the largest information that the set has
-    /// of one of the unknowns; nothing if that has broken down.
-    pub(super) fn trace(&self, set: &VisibleSet) -> Option<(f64, f64)> {
+    /// The trace of the covariance after the action with this set.
+    pub(super) fn trace(&self, set: &VisibleSet) -> ActionTrace {
         Arch::new().dispatch(Trace { action: self, set })
     }
+}
+
+/// A trace and what tells how many of its digits are right.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ActionTrace {
+    /// Nothing if the information of the unknowns has no inverse.
+    pub(super) value: Option<f64>,
+    /// The largest information that the set has of one of the unknowns.
+    pub(super) information: f64,
+    /// How large the terms of tr(C TᵀNT) are.
+    pub(super) magnitude: f64,
 }
 
 struct Trace<'a> {
@@ -46,12 +56,12 @@ struct Trace<'a> {
 }
 
 impl WithSimd for Trace<'_> {
-    type Output = Option<(f64, f64)>;
+    type Output = ActionTrace;
 
     /// Plain loops: compiled here, they use the vectors that the machine has, and give the same
     /// numbers on any.
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Option<(f64, f64)> {
+    fn with_simd<S: Simd>(self, _: S) -> ActionTrace {
         let mut information = congruence(&self.set.k.data.0, self.action, 0.0);
         let mut largest = 0.0_f64;
         for (i, row) in information.iter_mut().enumerate() {
@@ -59,7 +69,13 @@ impl WithSimd for Trace<'_> {
             largest = largest.max(row[i]);
         }
         let weight = congruence(&self.set.n.data.0, self.action, 1.0);
-        let inverse = inverse(information)?;
+        let Some(inverse) = inverse(information) else {
+            return ActionTrace {
+                value: None,
+                information: largest,
+                magnitude: f64::INFINITY,
+            };
+        };
         let mut trace = self.set.constant;
         for (inverse, weight) in inverse.iter().zip(&weight) {
             let mut products = [0.0; 12];
@@ -70,8 +86,39 @@ impl WithSimd for Trace<'_> {
                 trace += product;
             }
         }
-        Some((trace, largest))
+        let mut magnitude = 0.0;
+        for (i, size) in sizes(&self.set.root_of_n, self.action).iter().enumerate() {
+            magnitude += inverse[i][i] * size * size;
+        }
+        ActionTrace {
+            value: Some(trace),
+            information: largest,
+            magnitude,
+        }
     }
+}
+
+/// |T|ᵀ m.
+#[inline(always)]
+fn sizes(m: &[f64; 12], action: &ActionTerms) -> [f64; 12] {
+    let mut out = [0.0; 12];
+    let mut turned = [0.0, 0.0, 0.0, m[3], m[4], m[5]];
+    for i in 0..3 {
+        let (axes, lever) = (&action.axes[i], &action.lever[i]);
+        for j in 0..3 {
+            turned[j] += axes[j].abs() * m[i] + lever[j].abs() * m[3 + i];
+        }
+    }
+    for j in 0..6 {
+        out[j] = action.noise[j] * turned[j];
+        out[6 + j] = m[6 + j];
+    }
+    for (row, size) in action.moved_root.iter().zip(&turned) {
+        for j in 0..6 {
+            out[6 + j] += row[j].abs() * size;
+        }
+    }
+    out
 }
 
 /// TᵀMT for a symmetric M, with `diagonal` I added to its G.

@@ -4,6 +4,7 @@ use adslam_models::{Control, FeatureId, Pose, motion_jacobian, predicted_pose};
 use nalgebra::{Matrix3, Vector3};
 
 use super::prior::DecisionPrior;
+use crate::digits::check_motion_resolved;
 use crate::ekf::check_feature;
 use crate::feature_update::{Sighting, condition_on_features};
 use crate::noise::{Zero, check_sigma};
@@ -130,6 +131,11 @@ impl DirectTrace {
         self.posterior.copy_lower(&prior.covariance);
         self.posterior
             .propagate(&motion_jacobian(&prior.pose, control), &robot_only);
+        check_motion_resolved(
+            &prior.covariance.pose(),
+            &self.posterior.pose(),
+            robot_only.translation_sigma,
+        )?;
         condition_on_features(
             &mut self.posterior,
             &self.sightings,

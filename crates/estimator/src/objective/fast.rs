@@ -186,17 +186,15 @@ impl PosteriorTrace {
             moved_root: rows(&(motion_jacobian(&self.prior.pose, control) * self.root)),
             noise: noise_root(noise),
         };
-        let (trace, information) =
-            action
-                .trace(set)
-                .ok_or(EstimatorError::NotPositiveDefinite {
-                    matrix: "information of the planned measurements",
-                    dim: 12,
-                })?;
-        check_gain(information, 12)?;
-        let digits = set.magnitude / trace.max(f64::MIN_POSITIVE);
+        let trace = action.trace(set);
+        check_gain(trace.information, 12)?;
+        let value = trace.value.ok_or(EstimatorError::NotPositiveDefinite {
+            matrix: "information of the planned measurements",
+            dim: 12,
+        })?;
+        let digits = (set.magnitude + trace.magnitude) / value.max(f64::MIN_POSITIVE);
         check_gain(digits, self.prior.covariance.dim())?;
-        Ok(trace)
+        Ok(value)
     }
 }
 

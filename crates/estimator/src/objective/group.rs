@@ -42,6 +42,8 @@ pub(super) struct VisibleSet {
     pub(super) constant: f64,
     /// How large the terms are that the trace is summed from.
     pub(super) magnitude: f64,
+    /// m, with no entry of what N is summed from larger than that of m mᵀ.
+    pub(super) root_of_n: [f64; 12],
 }
 
 /// What all sets of a decision share, over the features that any of them sees, in memory that is kept.
@@ -166,12 +168,17 @@ impl SharedBlocks {
     ) -> Result<VisibleSet, EstimatorError> {
         let mut n = Matrix12::zeros();
         n.fixed_view_mut::<6, 6>(6, 6).copy_from(&self.jj);
+        let mut root_of_n = [0.0; 12];
+        for (root, squared) in root_of_n[6..].iter_mut().zip(self.jj.diagonal().iter()) {
+            *root = squared.sqrt();
+        }
         if visible.is_empty() {
             return Ok(VisibleSet {
                 k: Matrix12::zeros(),
                 n,
                 constant: self.trace,
                 magnitude: self.magnitude,
+                root_of_n,
             });
         }
         work.gather(self, visible)?;
@@ -181,6 +188,7 @@ impl SharedBlocks {
         // K = (L⁻¹U)ᵀ(L⁻¹U), X = B⁻¹U.
         let k = work.gram_of_whitened();
         work.finish_solve();
+        work.add_sizes(&mut root_of_n);
         // N = [0, J]ᵀ[0, J] − [0, PJ]ᵀX − Xᵀ[0, PJ] + XᵀP̂²X.
         let cross = work.pj_times_x();
         for row in 0..6 {
@@ -195,6 +203,7 @@ impl SharedBlocks {
             n,
             constant: self.trace - work.trace_of_inverse_times_squared(),
             magnitude: self.magnitude + work.magnitude_of_inverse_times_squared(),
+            root_of_n,
         })
     }
 }

@@ -148,6 +148,15 @@ impl SetWorkspace {
             .sum()
     }
 
+    /// Adds |X|ᵀd, d² the diagonal of P̂²: no entry of the terms of XᵀP̂²X is larger than what that squared has.
+    pub(super) fn add_sizes(&self, sizes: &mut [f64; 12]) {
+        for (column, size) in sizes.iter_mut().enumerate() {
+            for (k, x) in self.x.col_as_slice(column).iter().enumerate() {
+                *size += x.abs() * self.squared[(k, k)].sqrt();
+            }
+        }
+    }
+
     /// tr(B⁻¹P̂²), after [`Self::invert`].
     pub(super) fn trace_of_inverse_times_squared(&self) -> f64 {
         (0..self.inverse.ncols())

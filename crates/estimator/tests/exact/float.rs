@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Sub};
 
 use num_bigint::BigInt;
+use num_traits::float::FloatCore;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 /// Bits of a mantissa.
@@ -53,16 +54,8 @@ impl From<f64> for Float {
     /// Exactly.
     fn from(x: f64) -> Self {
         assert!(x.is_finite(), "{x}");
-        let exponent = if x == 0.0 {
-            0
-        } else {
-            i64::from(x.abs().log2().floor() as i32) - 60
-        };
-        // 61 bits before the point hold all 53 of a normal number.
-        let half = i32::try_from(exponent / 2).expect("small");
-        let other = i32::try_from(exponent - exponent / 2).expect("small");
-        let scaled = x * 2_f64.powi(-half) * 2_f64.powi(-other);
-        Self::cut(BigInt::from(scaled as i128), exponent)
+        let (mantissa, exponent, sign) = x.integer_decode();
+        Self::cut(BigInt::from(mantissa) * sign, i64::from(exponent))
     }
 }
 
