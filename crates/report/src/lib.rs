@@ -53,7 +53,7 @@ pub fn write(tables: &Tables, folder: &Path) -> Result<PathBuf, ExperimentError>
     Ok(path)
 }
 
-/// Removes report.html and the replays that [`write`] put beside it, if they are in `folder`.
+/// Removes report.html and the replays that [`write()`] put beside it, if they are in `folder`.
 ///
 /// # Errors
 /// A file that cannot be removed.

@@ -22,7 +22,7 @@ pub struct Tables {
     pub experiments: Vec<ExperimentTables>,
     /// The configuration and then its scenarios, each once.
     pub sources: Vec<SourceFile>,
-    /// The mesh that took the place of the scenarios' own, as [`Selection::mesh`] says.
+    /// The mesh that took the place of the scenarios' own, as [`Selection::mesh`](crate::config::Selection::mesh) says.
     pub mesh: Option<PathBuf>,
     /// Runs that failed, and why.
     pub failures: Vec<String>,
