@@ -197,7 +197,8 @@ proptest! {
     #[test]
     fn never_sees_through_a_convex_object(points in grid_points(4, 5..25), sensor in grid_point(7)) {
         let surface = hull(&points);
-        prop_assume!(surface.signed_distance(&sensor) > 0.0);
+        // On the surface itself rounding may say that it is outside.
+        prop_assume!(surface.signed_distance(&sensor) > 1e-9);
         for i in 0..points.len() {
             let outward = |face: &[usize; 3]| {
                 let [a, b, c] = face.map(|k| points[k]);
