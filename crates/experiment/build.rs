@@ -7,24 +7,24 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The crates whose code decides about results, and the workspace's files; from this crate's folder. Those that
-/// are not there, as in a crate that was packed by itself, count as absent.
-const SOURCES: [&str; 15] = [
-    "src",
-    "build.rs",
-    "Cargo.toml",
-    "../../Cargo.toml",
-    "../../Cargo.lock",
-    "../models/src",
-    "../models/Cargo.toml",
-    "../estimator/src",
-    "../estimator/Cargo.toml",
-    "../deformation/src",
-    "../deformation/Cargo.toml",
-    "../surface/src",
-    "../surface/Cargo.toml",
-    "../planning/src",
-    "../planning/Cargo.toml",
+/// The workspace's files, from this crate's folder. Those that are not there, as in a crate that was packed by itself,
+/// count as absent.
+const WORKSPACE: [&str; 2] = ["../../Cargo.toml", "../../Cargo.lock"];
+
+/// The crates whose code decides about results.
+const CRATES: [&str; 12] = [
+    "agent",
+    "deformation",
+    "estimator",
+    "experiment",
+    "models",
+    "names",
+    "planning",
+    "scenario",
+    "setup",
+    "simulation",
+    "statistics",
+    "surface",
 ];
 
 /// What Cargo says of the compilation that may change the arithmetic.
@@ -38,12 +38,13 @@ const SETTINGS: [&str; 4] = [
 fn main() -> io::Result<()> {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let mut hasher = crc32fast::Hasher::new();
-    for source in SOURCES {
-        let path = root.join(source);
-        if !path.exists() {
-            continue;
+    let of_crate = |name| ["src", "build.rs", "Cargo.toml"].map(|part| format!("../{name}/{part}"));
+    let of_crates = CRATES.into_iter().flat_map(of_crate);
+    for source in WORKSPACE.map(str::to_owned).into_iter().chain(of_crates) {
+        let path = root.join(&source);
+        if path.exists() {
+            add(&mut hasher, &source, &path)?;
         }
-        add(&mut hasher, source, &path)?;
     }
     for setting in SETTINGS {
         hasher.update(env::var(setting).unwrap_or_default().as_bytes());

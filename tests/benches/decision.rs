@@ -16,17 +16,20 @@ mod textbook;
 use std::sync::{LazyLock, OnceLock};
 use std::time::Duration;
 
+use adslam_diagnostics::{Failure, Interrupt};
 use adslam_estimator::{
     Belief, DirectTrace, FeatureMeasurement, FilterNoise, PairMeasurement, PlannedMeasurement,
 };
-use adslam_experiment::ExperimentError;
-use adslam_experiment::run::{Interrupt, Observer, Setup, StepView, build_planner, simulate};
-use adslam_experiment::scenario::PlannerName;
+use adslam_experiment::run::simulate;
 use adslam_models::FeatureId;
+use adslam_names::PlannerName;
 use adslam_planning::{
     ActionScorer, Candidate, Nearest, ObjectSurfaces, PlanningNoise, SafeActions, Situation,
     VisibleSets,
 };
+use adslam_record::Observer;
+use adslam_setup::{Setup, build_planner};
+use adslam_simulation::StepView;
 use adslam_tests::setup;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
@@ -75,17 +78,17 @@ struct Recorder<'a> {
 }
 
 impl Observer for Recorder<'_> {
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), Failure> {
         if STEPS.contains(&view.step) {
             let goal = view.decision.and_then(|(decision, _)| decision.goal);
             self.moments.push(Moment {
                 belief: view.belief.clone(),
-                feature_motion: self.setup.known_feature_motion(view.step),
+                feature_motion: self.setup.model.known_feature_motion(view.step),
                 goal: goal.map(|(_, viewpoint)| viewpoint),
             });
         }
         if Some(&view.step) == STEPS.last() {
-            return Err(ExperimentError::Interrupted);
+            return Err(Failure::Interrupted);
         }
         Ok(())
     }
@@ -118,7 +121,7 @@ impl Case {
         Situation {
             belief: &moment.belief,
             feature_motion: &moment.feature_motion,
-            model: &self.setup().planning,
+            model: &self.setup().model.planning,
             time_is_up: None,
         }
     }
@@ -153,7 +156,7 @@ impl Candidates {
         } else {
             assert_eq!(planner, PlannerName::Local);
         }
-        let model = &case.setup().planning;
+        let model = &case.setup().model.planning;
         let mut sets = VisibleSets::default();
         sets.find(safe.candidates(), &model.actions, &model.sensor, after);
         let seen = (0..safe.candidates().len())
@@ -251,7 +254,7 @@ fn scoring(c: &mut Criterion, name: &str, planner: PlannerName) {
 
         group.bench_function(BenchmarkId::new("direct", case.name), |b| {
             let mut next = in_turn(&candidates);
-            let noise = noise.over(&case.setup().planning.noise);
+            let noise = noise.over(&case.setup().model.planning.noise);
             let (mut objective, mut planned) = (DirectTrace::default(), Vec::new());
             b.iter(|| {
                 let (moment, candidates) = next();
@@ -262,7 +265,7 @@ fn scoring(c: &mut Criterion, name: &str, planner: PlannerName) {
         if case.name == "polygon" {
             group.bench_function(BenchmarkId::new("textbook", case.name), |b| {
                 let mut next = in_turn(&candidates);
-                let noise = noise.over(&case.setup().planning.noise);
+                let noise = noise.over(&case.setup().model.planning.noise);
                 b.iter(|| {
                     let (moment, candidates) = next();
                     textbook(moment, &noise, candidates)
@@ -326,7 +329,7 @@ fn decision_parts(c: &mut Criterion) {
                 .map(|moment| (moment, Candidates::of(case, PlannerName::Local, moment)))
                 .collect();
             let mut next = in_turn(&candidates);
-            let model = &case.setup().planning;
+            let model = &case.setup().model.planning;
             let (mut surfaces, mut sets) = (ObjectSurfaces::default(), VisibleSets::default());
             b.iter(|| {
                 let (moment, candidates) = next();

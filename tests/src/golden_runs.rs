@@ -3,10 +3,10 @@
 
 use std::fmt;
 
-use adslam_experiment::ExperimentError;
+use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::provenance::RESULTS_VERSION;
-use adslam_experiment::run::{Interrupt, Setup};
-use adslam_experiment::scenario::PlannerName;
+use adslam_names::PlannerName;
+use adslam_setup::Setup;
 use rayon::prelude::*;
 
 use crate::setup;
@@ -69,7 +69,7 @@ impl GoldenRuns {
     ///
     /// # Panics
     /// If a shipped scenario is not valid.
-    pub fn record(interrupt: &Interrupt) -> Result<Self, ExperimentError> {
+    pub fn record(interrupt: &Interrupt) -> Result<Self, Failure> {
         let setups = ["polygon.toml", "heart.toml"].map(|name| setup(name, &[]));
         let runs: Vec<(&Setup, PlannerName)> = setups
             .iter()

@@ -6,9 +6,12 @@ pub mod readers;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use adslam_experiment::metrics::RunSummary;
-use adslam_experiment::run::{Batch, Interrupt, Setup};
-use adslam_experiment::scenario::{PlannerName, Scenario};
+use adslam_diagnostics::Interrupt;
+use adslam_experiment::run::Batch;
+use adslam_names::PlannerName;
+use adslam_scenario::Scenario;
+use adslam_setup::Setup;
+use adslam_simulation::RunSummary;
 
 /// A file of the repository, by its path from the root.
 #[must_use]

@@ -8,14 +8,17 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use adslam_experiment::config::{Config, Published};
-use adslam_experiment::diagnostics::InputError;
-use adslam_experiment::log::{EstimateLine, FilterChoice, GateChoice, Replay};
-use adslam_experiment::run::{RunHistory, Setup};
-use adslam_experiment::scenario::values::{GateProbability, NonNegative};
-use adslam_experiment::scenario::{EstimatorName, LengthUnit, Named, Object, Scenario};
-use adslam_experiment::sweep::{Sweep, SweepPlan};
-use adslam_experiment::{ExperimentError, MeshReport, MeshUse};
+use adslam_agent::GateProbability;
+use adslam_diagnostics::{Failure, InputError};
+use adslam_experiment::sweep::SweepPlan;
+use adslam_names::{EstimatorName, LengthUnit, Named};
+use adslam_record::RunHistory;
+use adslam_record::log::{EstimateLine, FilterChoice, GateChoice, Replay};
+use adslam_scenario::config::{Config, Published};
+use adslam_scenario::sweep::Sweep;
+use adslam_scenario::values::NonNegative;
+use adslam_scenario::{Object, Scenario};
+use adslam_setup::{MeshReport, MeshUse, Setup};
 use adslam_surface::{Clearance, Fan, MeshFile, MeshFormat, Surface, Topology, pick_features};
 use nalgebra::Point3;
 
@@ -109,7 +112,7 @@ fn scenario(bytes: &[u8]) {
         _ => Setup::new(&scenario).map(Some),
     });
     match built {
-        Ok(Some(setup)) => drop(setup.known_feature_motion(setup.steps)),
+        Ok(Some(setup)) => drop(setup.model.known_feature_motion(setup.model.steps)),
         Ok(None) => {}
         Err(error) => shown(error),
     }
@@ -190,7 +193,7 @@ fn filter(bytes: &[u8], choice: FilterChoice) {
                 assert_eq!(line, again);
             }
             Ok(None) => return,
-            Err(ExperimentError::Input(error)) => return shown(error),
+            Err(Failure::Input(error)) => return shown(error),
             Err(error) => return drop(error.to_string()),
         }
     }

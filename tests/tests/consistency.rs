@@ -6,9 +6,11 @@
     reason = "a helper that fails is a test that fails"
 )]
 
+use adslam_diagnostics::Interrupt;
 use adslam_experiment::consistency::{ConsistencyRecord, Judgement, Measure, Verdict};
-use adslam_experiment::run::{Interrupt, Setup, simulate};
-use adslam_experiment::scenario::{EstimatorName, Named, PlannerName};
+use adslam_experiment::run::simulate;
+use adslam_names::{EstimatorName, Named, PlannerName};
+use adslam_setup::Setup;
 use adslam_tests::{mean, setup, summaries};
 
 const ACCUMULATING: (&str, &str) = ("[noise]", "[noise]\ndeformation_noise = \"accumulating\"");
@@ -27,19 +29,12 @@ fn judged(measure: Measure, runs: &[ConsistencyRecord]) -> Judgement {
     Judgement::of(measure, &runs.iter().collect::<Vec<_>>()).unwrap()
 }
 
-fn with_estimator(setup: &Setup, estimator: EstimatorName) -> Setup {
-    Setup {
-        estimator: estimator.into(),
-        ..setup.clone()
-    }
-}
-
 /// docs/consistency.md has 100 runs of everything; these are as many as a test can wait for.
 #[test]
 fn every_estimator_is_consistent_in_every_measure() {
     let setup = setup("polygon.toml", &[ACCUMULATING]);
     for &name in EstimatorName::ALL {
-        let setup = with_estimator(&setup, name);
+        let setup = setup.with_estimator(name);
         let runs = records(&setup, PlannerName::Local, 20);
         for measure in Measure::ALL {
             let judgement = judged(measure, &runs);
@@ -62,7 +57,7 @@ fn the_right_invariant_filter_is_consistent_on_both_environments() {
         ("heart.toml", PlannerName::Global, 8),
     ] {
         let setup = setup(name, &[ACCUMULATING]);
-        let setup = with_estimator(&setup, EstimatorName::RightInvariantEkf);
+        let setup = setup.with_estimator(EstimatorName::RightInvariantEkf);
         let runs = records(&setup, planner, seeds);
         for measure in measures {
             let Judgement { verdict, mean, .. } = judged(measure, &runs);

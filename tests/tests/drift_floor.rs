@@ -6,18 +6,20 @@
     reason = "a helper that fails is a test that fails"
 )]
 
+use std::sync::Arc;
+
 use adslam_deformation::{BackAndForth, ObjectMotion};
+use adslam_diagnostics::Interrupt;
 use adslam_estimator::{
     Belief, Ekf, Estimator, FeatureMeasurement, FilterNoise, Measurements, StructureMeasurements,
 };
-use adslam_experiment::metrics::DriftFloor;
-use adslam_experiment::run::{Batch, HistoryMetrics, Interrupt};
-use adslam_experiment::scenario::PlannerName;
-use adslam_experiment::world::{DeformationNoise, Faults, World, WorldModel, WorldNoise};
+use adslam_experiment::run::Batch;
 use adslam_models::{Control, FeatureId, Pose};
+use adslam_names::PlannerName;
+use adslam_record::HistoryMetrics;
+use adslam_simulation::{DeformationNoise, DriftFloor, Faults, World, WorldModel, WorldNoise};
 use adslam_tests::setup;
 use nalgebra::{DMatrix, DVector, Matrix6, Point3, Vector3};
-use std::sync::Arc;
 
 const FEATURES: usize = 6;
 const STEPS: usize = 40;
@@ -73,7 +75,7 @@ struct Told<'a> {
 /// An estimator that is told everything but where the world's origin is.
 trait Oracle {
     fn start(model: &WorldModel, features: Vec<Point3<f64>>) -> Self;
-    fn step(&mut self, world: &mut World<'_>, told: &Told<'_>);
+    fn step(&mut self, world: &mut World, told: &Told<'_>);
     fn position(&self) -> Point3<f64>;
 }
 
@@ -98,7 +100,7 @@ impl Oracle for AllTold {
         Self(ekf.unwrap(), belief.unwrap())
     }
 
-    fn step(&mut self, world: &mut World<'_>, told: &Told<'_>) {
+    fn step(&mut self, world: &mut World, told: &Told<'_>) {
         let all: Vec<FeatureId> = (0..FEATURES).map(FeatureId).collect();
         let measured = world.measure(&all).features;
         let features: Vec<FeatureMeasurement> = measured
@@ -158,7 +160,7 @@ impl Oracle for Linear {
         }
     }
 
-    fn step(&mut self, world: &mut World<'_>, told: &Told<'_>) {
+    fn step(&mut self, world: &mut World, told: &Told<'_>) {
         for axis in 0..3 {
             self.state[(0, axis)] += told.way[axis];
             for (i, d) in told.moved.iter().enumerate() {
@@ -188,7 +190,7 @@ impl Oracle for Linear {
 
 /// The errors of the position after each step but the first, cm.
 fn errors<O: Oracle>(model: &WorldModel, seed: u64, steps: usize) -> Vec<f64> {
-    let mut world = World::new(model, seed);
+    let mut world = World::new(model.clone(), seed);
     let mut oracle = O::start(model, world.first_estimate());
     let error = |n: usize| {
         let control = control(n);
@@ -266,7 +268,7 @@ fn every_planner_stays_above_it() {
     for replacements in [&[short] as &[_], &[short, accumulating]] {
         let setup = setup("polygon.toml", replacements);
         let seeds = 1..=16;
-        let of_oracle = |seed| errors::<Linear>(&setup.world, seed, setup.steps);
+        let of_oracle = |seed| errors::<Linear>(&setup.model.world, seed, setup.model.steps);
         let least: f64 = seeds.clone().flat_map(of_oracle).sum();
         for planner in PlannerName::ALL {
             let of_seed = |seed| Batch {

@@ -7,13 +7,16 @@
     reason = "a helper that fails is a test that fails"
 )]
 
+use adslam_diagnostics::{Failure, Interrupt};
 use adslam_estimator::{Belief, DirectTrace, PlannedMeasurement};
-use adslam_experiment::ExperimentError;
-use adslam_experiment::run::{Interrupt, Observer, Setup, StepView, simulate};
-use adslam_experiment::scenario::PlannerName;
+use adslam_experiment::run::simulate;
+use adslam_names::PlannerName;
 use adslam_planning::{
     ObjectSurfaces, SafeActions, Situation, TRACE_TOLERANCE, features_seen_in_pose,
 };
+use adslam_record::Observer;
+use adslam_setup::Setup;
+use adslam_simulation::StepView;
 use adslam_tests::setup;
 
 struct Plain<'a> {
@@ -25,8 +28,8 @@ struct Plain<'a> {
 impl Plain<'_> {
     /// All safe actions' traces by the plain way, and where in the list the smallest is.
     fn traces(&self, belief: &Belief, step: usize) -> (SafeActions, Vec<f64>) {
-        let model = &self.setup.planning;
-        let feature_motion = self.setup.known_feature_motion(step);
+        let model = &self.setup.model.planning;
+        let feature_motion = self.setup.model.known_feature_motion(step);
         let situation = Situation {
             belief,
             feature_motion: &feature_motion,
@@ -57,7 +60,7 @@ impl Plain<'_> {
 }
 
 impl Observer for Plain<'_> {
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), Failure> {
         if let (Some(belief), Some((decision, _))) = (self.belief.take(), view.decision) {
             let (safe, traces) = self.traces(&belief, view.step - 1);
             assert_eq!(decision.safe, safe.safe());
@@ -95,6 +98,6 @@ fn the_same_actions_are_chosen_on_whole_runs() {
             decisions: 0,
         };
         simulate(&setup, PlannerName::Local, 2, &Interrupt::new(), &mut plain).unwrap();
-        assert_eq!(plain.decisions, setup.steps - 1);
+        assert_eq!(plain.decisions, setup.model.steps - 1);
     }
 }

@@ -9,9 +9,9 @@
 use std::fs::{self, File};
 use std::io::BufReader;
 
-use adslam_experiment::log::{EstimateLine, FilterChoice, TailPolicy, filter_log};
-use adslam_experiment::output::AtomicFile;
-use adslam_experiment::run::Interrupt;
+use adslam_diagnostics::Interrupt;
+use adslam_record::AtomicFile;
+use adslam_record::log::{EstimateLine, FilterChoice, TailPolicy, filter_log};
 use adslam_tests::fixture;
 
 fn estimates(text: &str) -> Vec<EstimateLine> {

@@ -12,11 +12,11 @@ use std::io::BufReader;
 use std::sync::Arc;
 
 use adslam_estimator::{Belief, DirectTrace, FilterNoise, PlannedMeasurement, PosteriorTrace};
-use adslam_experiment::log::{FilterChoice, Replay};
-use adslam_experiment::run::Setup;
-use adslam_experiment::scenario::{Scenario, Viewpoints};
 use adslam_models::{Control, FeatureId, Pose, Sensor, predicted_pose};
 use adslam_planning::{features_seen_from, features_seen_in_pose};
+use adslam_record::log::{FilterChoice, Replay};
+use adslam_scenario::{Scenario, Viewpoints};
+use adslam_setup::Setup;
 use adslam_surface::{Surface, Topology};
 use adslam_tests::{fixture, repository};
 use nalgebra::{Point3, Vector3};
@@ -90,7 +90,7 @@ fn clear_candidates_and_objectives() {
     let golden = Golden::load();
     let scenario = Scenario::load(&repository("scenarios/polygon.toml")).unwrap();
     let setup = Setup::new(&scenario).unwrap();
-    let actions = setup.planning.actions.controls();
+    let actions = setup.model.planning.actions.controls();
     for at in &golden.beliefs {
         let (belief, noise) = belief_before(at.before_step);
         let motion: Vec<Vector3<f64>> = at

@@ -9,8 +9,8 @@
 
 use std::fs;
 
+use adslam_diagnostics::Interrupt;
 use adslam_experiment::provenance::RESULTS_VERSION;
-use adslam_experiment::run::Interrupt;
 use adslam_tests::fixture;
 use adslam_tests::golden_runs::{GOLDEN_RUNS, GoldenRun, GoldenRuns, Renewal};
 

@@ -8,10 +8,12 @@
 
 use std::collections::BTreeMap;
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::metrics::RunSummary;
-use adslam_experiment::run::{Interrupt, Observer, Setup, StepView, simulate};
-use adslam_experiment::scenario::PlannerName;
+use adslam_diagnostics::{Failure, Interrupt};
+use adslam_experiment::run::simulate;
+use adslam_names::PlannerName;
+use adslam_record::Observer;
+use adslam_setup::Setup;
+use adslam_simulation::{RunSummary, StepView};
 use adslam_tests::{mean, setup, summaries};
 
 const SEEDS: u64 = 12;
@@ -145,8 +147,8 @@ fn planners_meet_the_same_faults_at_the_same_seed() {
         of: BTreeMap<(usize, usize), bool>,
     }
     impl Observer for Measured {
-        fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
-            let model = &self.setup.as_ref().unwrap().planning;
+        fn step(&mut self, view: &StepView<'_>) -> Result<(), Failure> {
+            let model = &self.setup.as_ref().unwrap().model.planning;
             let surface = adslam_surface::Surface::new(&model.topology, view.features).unwrap();
             for id in adslam_planning::features_seen_in_pose(&model.sensor, view.pose, &surface) {
                 let measured = view.visible.contains(&id);

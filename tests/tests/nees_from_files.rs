@@ -11,8 +11,9 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-use adslam_experiment::run::{Interrupt, RunRecorder, RunReport, simulate};
-use adslam_experiment::scenario::{EstimatorName, LengthUnit, Named, PlannerName};
+use adslam_diagnostics::Interrupt;
+use adslam_experiment::run::{RunRecorder, RunReport, simulate};
+use adslam_names::{EstimatorName, LengthUnit, Named, PlannerName};
 use adslam_tests::setup;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 

@@ -6,11 +6,13 @@
     reason = "a helper that fails is a test that fails"
 )]
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::metrics::RunSummary;
-use adslam_experiment::run::{Interrupt, NoObserver, Observer, Setup, StepView, simulate};
-use adslam_experiment::scenario::PlannerName;
+use adslam_diagnostics::{Failure, Interrupt};
+use adslam_experiment::run::simulate;
 use adslam_models::Control;
+use adslam_names::PlannerName;
+use adslam_record::{NoObserver, Observer};
+use adslam_setup::Setup;
+use adslam_simulation::{RunSummary, StepView};
 use adslam_tests::{mean, setup, summaries};
 
 /// Keeps the controls of a run.
@@ -18,7 +20,7 @@ use adslam_tests::{mean, setup, summaries};
 struct Controls(Vec<Control>);
 
 impl Observer for Controls {
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), Failure> {
         self.0
             .extend(view.decision.map(|(decision, _)| decision.control));
         Ok(())
@@ -28,7 +30,7 @@ impl Observer for Controls {
 fn controls(setup: &Setup, planner: PlannerName, seed: u64) -> Vec<Control> {
     let mut observer = Controls::default();
     simulate(setup, planner, seed, &Interrupt::new(), &mut observer).unwrap();
-    assert_eq!(observer.0.len(), setup.steps - 1);
+    assert_eq!(observer.0.len(), setup.model.steps - 1);
     observer.0
 }
 
@@ -50,7 +52,7 @@ fn the_combined_planner_contains_the_global_and_the_local_one() {
         (polygon(first), polygon(every)),
         (heart(first), heart(every)),
     ] {
-        let name = &one.name;
+        let name = one.name();
         for seed in 1..=2 {
             let global = controls(&one, PlannerName::Global, seed);
             assert_eq!(
@@ -99,7 +101,7 @@ fn planners_meet_the_same_world_at_the_same_seed() {
     #[derive(Default)]
     struct Features(Vec<nalgebra::Point3<f64>>);
     impl Observer for Features {
-        fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+        fn step(&mut self, view: &StepView<'_>) -> Result<(), Failure> {
             self.0.extend_from_slice(view.features);
             Ok(())
         }
@@ -140,7 +142,7 @@ fn an_interrupted_run_says_so() {
     let interrupt = Interrupt::new();
     interrupt.request();
     let error = simulate(&setup, PlannerName::Global, 1, &interrupt, &mut NoObserver).unwrap_err();
-    assert!(matches!(error, ExperimentError::Interrupted));
+    assert!(matches!(error, Failure::Interrupted));
 }
 
 /// With hardly any time a planner still takes a safe action, the best of those it came to score.
@@ -149,7 +151,7 @@ fn a_deadline_leaves_the_best_action_so_far() {
     #[derive(Default)]
     struct Scored(Vec<(usize, usize)>);
     impl Observer for Scored {
-        fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+        fn step(&mut self, view: &StepView<'_>) -> Result<(), Failure> {
             if let Some((decision, _)) = view.decision {
                 let best = view
                     .scores

@@ -7,8 +7,8 @@
     reason = "a helper that fails is a test that fails"
 )]
 
-use adslam_experiment::metrics::RunSummary;
-use adslam_experiment::scenario::PlannerName;
+use adslam_names::PlannerName;
+use adslam_simulation::RunSummary;
 use adslam_tests::{mean, setup, summaries};
 
 const SEEDS: u64 = 50;

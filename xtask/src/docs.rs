@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use adslam_cli::{FAILURE, schema_text};
-use adslam_experiment::diagnostics::FileKind;
-use adslam_experiment::schema::json_schema;
+use adslam_scenario::FileKind;
+use adslam_scenario::schema::json_schema;
 use serde_json::Value;
 
 const TEMPLATE: &str = include_str!("../templates/scenario.md");

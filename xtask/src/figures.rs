@@ -4,15 +4,16 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use adslam_cli::{FAILURE, exit_code};
-use adslam_experiment::ExperimentError;
-use adslam_experiment::config::{Config, Selection};
-use adslam_experiment::output::prepare_folder;
-use adslam_experiment::run::{HistoryRecorder, Interrupt, RunHistory, Setup, simulate};
-use adslam_experiment::scenario::{Object, Scenario};
+use adslam_diagnostics::{Failure, Interrupt};
+use adslam_experiment::run::simulate;
 use adslam_experiment::tables::TablePlan;
 use adslam_figures::{
     Figure, FigureError, boxes, comparison, coverage, environments, estimates, nees, pose_error,
 };
+use adslam_record::{HistoryRecorder, RunHistory, prepare_folder};
+use adslam_scenario::config::{Config, Selection};
+use adslam_scenario::{Object, Scenario};
+use adslam_setup::Setup;
 use clap::Args;
 
 use crate::environment::Environment;
@@ -58,7 +59,7 @@ struct Recorded {
 
 impl FiguresArgs {
     fn draw(&self, interrupt: &Interrupt) -> Result<(), FigureError> {
-        prepare_folder(&self.out).map_err(ExperimentError::from)?;
+        prepare_folder(&self.out).map_err(Failure::from)?;
         let recorded = self.record(interrupt)?;
         let first = |r: &'_ Recorded| r.histories.first().cloned();
         let objects: Vec<RunHistory> = recorded.iter().filter_map(first).collect();
@@ -86,7 +87,7 @@ impl FiguresArgs {
 
     /// Runs every method once in every environment that is asked for; one after the other, so
     /// that none slows down the decisions of another.
-    fn record(&self, interrupt: &Interrupt) -> Result<Vec<Recorded>, ExperimentError> {
+    fn record(&self, interrupt: &Interrupt) -> Result<Vec<Recorded>, Failure> {
         let config = Config::load(&paper())?;
         let wanted = self.scenario.labels();
         let mut recorded = Vec::new();
@@ -98,7 +99,7 @@ impl FiguresArgs {
             let mut histories = Vec::new();
             for planner in plan.planners {
                 eprintln!("running {}, {planner}, seed {}", plan.label, self.seed);
-                let mut recorder = HistoryRecorder::new(&setup, planner, self.seed);
+                let mut recorder = HistoryRecorder::new(&setup.model, planner, self.seed);
                 simulate(&setup, planner, self.seed, interrupt, &mut recorder)?;
                 histories.push(recorder.into_history());
             }
@@ -124,7 +125,7 @@ impl FiguresArgs {
             only: self.scenario.labels(),
             mesh: self.mesh.clone(),
         };
-        let plan = TablePlan::load(&paper(), &selection).map_err(ExperimentError::from)?;
+        let plan = TablePlan::load(&paper(), &selection).map_err(Failure::from)?;
         eprintln!("running {} more for the box plots", plan.total_runs());
         let tables = plan.run(interrupt, &|| ());
         for experiment in &tables.experiments {

@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use std::process::ExitCode;
 
 use adslam_cli::{FAILURE, exit_code};
-use adslam_experiment::run::Interrupt;
+use adslam_diagnostics::Interrupt;
 use adslam_tests::fixture;
 use adslam_tests::golden_runs::{GOLDEN_RUNS, GoldenRuns, Renewal};
 

@@ -3,8 +3,7 @@
 use std::fmt::Display;
 use std::path::Path;
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::diagnostics::InputError;
+use adslam_diagnostics::{Failure, InputError};
 use miette::Diagnostic;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -23,8 +22,8 @@ impl Answer {
     /// Does `work` and completes the answer by whether it went well, and what went wrong.
     pub(crate) fn give(
         json: bool,
-        work: impl FnOnce(&mut Self) -> Result<(), ExperimentError>,
-    ) -> Result<(), ExperimentError> {
+        work: impl FnOnce(&mut Self) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
         // It comes first, however the work ends.
         let begun = || Map::from_iter([("ok".to_owned(), Value::Null)]);
         let mut answer = Self {
@@ -80,10 +79,10 @@ impl Answer {
 }
 
 /// An error of any kind for machines.
-fn told(error: &ExperimentError) -> Value {
+fn told(error: &Failure) -> Value {
     match error {
-        ExperimentError::Input(error) => told_input(error),
-        ExperimentError::Runs { failures } => {
+        Failure::Input(error) => told_input(error),
+        Failure::Runs { failures } => {
             json!({ "message": "some of the runs failed", "failures": failures })
         }
         error => json!({

@@ -4,8 +4,7 @@ mod files;
 mod many;
 mod single;
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::run::Interrupt;
+use adslam_diagnostics::{Failure, Interrupt};
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
@@ -167,7 +166,7 @@ impl Command {
     ///
     /// # Errors
     /// Bad input, a failure, or an interruption; see [`crate::exit_code`].
-    pub fn execute(&self, interrupt: &Interrupt) -> Result<(), ExperimentError> {
+    pub fn execute(&self, interrupt: &Interrupt) -> Result<(), Failure> {
         match self {
             Self::Run(args) => commands::run(args, interrupt),
             Self::Replay(args) => commands::replay(args),

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::log::EstimateLine;
-use adslam_experiment::output::{AtomicFile, prepare_folder};
+use adslam_diagnostics::Failure;
+use adslam_record::log::EstimateLine;
+use adslam_record::{AtomicFile, prepare_folder};
 
 use crate::paths::folder_of;
 
@@ -22,7 +22,7 @@ pub(crate) enum Estimates {
 
 impl Estimates {
     /// Starts to write to `out`.
-    pub(crate) fn create(out: &Path) -> Result<Self, ExperimentError> {
+    pub(crate) fn create(out: &Path) -> Result<Self, Failure> {
         if is_standard(out) {
             return Ok(Self::Standard);
         }
@@ -31,10 +31,10 @@ impl Estimates {
     }
 
     /// Adds a line.
-    pub(crate) fn add(&mut self, line: &EstimateLine) -> Result<(), ExperimentError> {
+    pub(crate) fn add(&mut self, line: &EstimateLine) -> Result<(), Failure> {
         match self {
             Self::File(file) => file.add_json_line(line),
-            Self::Standard => print(line).map_err(|cause| ExperimentError::Output {
+            Self::Standard => print(line).map_err(|cause| Failure::Output {
                 path: PathBuf::from("standard output"),
                 cause,
             }),

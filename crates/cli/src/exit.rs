@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use adslam_experiment::ExperimentError;
+use adslam_diagnostics::Failure;
 
 use crate::print::tell;
 
@@ -15,7 +15,7 @@ pub const INTERRUPTED: u8 = 130;
 
 /// Prints what went wrong, if anything did, and returns the exit code.
 #[must_use]
-pub fn exit_code(result: Result<(), ExperimentError>) -> ExitCode {
+pub fn exit_code(result: Result<(), Failure>) -> ExitCode {
     let Err(error) = result else {
         return ExitCode::SUCCESS;
     };
@@ -25,9 +25,9 @@ pub fn exit_code(result: Result<(), ExperimentError>) -> ExitCode {
 }
 
 /// The exit code of an error.
-pub(crate) fn code(error: &ExperimentError) -> u8 {
+pub(crate) fn code(error: &Failure) -> u8 {
     match error {
-        ExperimentError::Interrupted => INTERRUPTED,
+        Failure::Interrupted => INTERRUPTED,
         error if error.is_bad_input() => BAD_INPUT,
         _ => FAILURE,
     }

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use adslam_experiment::run::Interrupt;
+use adslam_diagnostics::Interrupt;
 
 use crate::print::tell;
 

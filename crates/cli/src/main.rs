@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use adslam_cli::Arguments;
-use adslam_experiment::run::Interrupt;
+use adslam_diagnostics::Interrupt;
 use clap::Parser;
 
 fn main() -> ExitCode {

@@ -3,16 +3,16 @@
 use std::fmt::Display;
 use std::io::{ErrorKind, Write, stderr, stdout};
 
-use adslam_experiment::ExperimentError;
+use adslam_diagnostics::Failure;
 
 /// Prints what was asked for on the standard output.
 ///
 /// # Errors
-/// [`ExperimentError::Output`] where it cannot be written, as to a file on a full disk.
-pub(crate) fn print(text: impl Display) -> Result<(), ExperimentError> {
+/// [`Failure::Output`] where it cannot be written, as to a file on a full disk.
+pub(crate) fn print(text: impl Display) -> Result<(), Failure> {
     let mut out = stdout().lock();
     match writeln!(out, "{text}").and_then(|()| out.flush()) {
-        Err(cause) if cause.kind() != ErrorKind::BrokenPipe => Err(ExperimentError::Output {
+        Err(cause) if cause.kind() != ErrorKind::BrokenPipe => Err(Failure::Output {
             path: "the standard output".into(),
             cause,
         }),

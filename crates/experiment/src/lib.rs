@@ -1,24 +1,14 @@
-//! What happens around filter and planners: scenario and configuration files, the simulated world,
-//! the runner, metrics, logs and tables.
+//! Many runs: done once each in a folder that survives a kill, tabulated with intervals and tests, and compared with
+//! what was published.
 
-pub mod config;
+mod check;
 pub mod consistency;
-pub mod diagnostics;
-mod error;
-pub mod log;
-mod mesh_report;
-pub mod metrics;
-mod near_vertices;
-pub mod output;
 pub mod provenance;
 pub mod run;
-pub mod scenario;
-pub mod schema;
-pub mod statistics;
 pub mod study;
 pub mod sweep;
 pub mod tables;
-pub mod world;
+#[cfg(test)]
+mod test_files;
 
-pub use error::ExperimentError;
-pub use mesh_report::{MeshReport, MeshUse};
+pub use check::{CheckedFile, check_file};

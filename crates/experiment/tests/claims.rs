@@ -8,12 +8,14 @@
 use std::fs;
 use std::path::Path;
 
-use adslam_experiment::config::{Config, MOST_RUNS_IN_ALL, Published, Selection};
-use adslam_experiment::diagnostics::InputError;
-use adslam_experiment::log::LogReader;
-use adslam_experiment::run::{HistoryRecorder, RunHistory, Setup};
-use adslam_experiment::scenario::{PlannerName, Scenario};
+use adslam_diagnostics::InputError;
 use adslam_experiment::tables::TablePlan;
+use adslam_names::PlannerName;
+use adslam_record::log::LogReader;
+use adslam_record::{HistoryRecorder, RunHistory};
+use adslam_scenario::Scenario;
+use adslam_scenario::config::{Config, MOST_RUNS_IN_ALL, Published, Selection};
+use adslam_setup::Setup;
 use allocation_counter::measure;
 use serde_json::{Value, json};
 
@@ -110,7 +112,7 @@ fn features_that_no_memory_holds() {
 fn steps_that_are_yet_to_be_done() {
     let longest = scenario("steps = 100", "steps = 1000000").unwrap();
     let setup = Setup::new(&longest).unwrap();
-    let memory = measure(|| drop(HistoryRecorder::new(&setup, PlannerName::Global, 1)));
+    let memory = measure(|| drop(HistoryRecorder::new(&setup.model, PlannerName::Global, 1)));
     assert!(memory.bytes_max < MIB, "{memory:?}");
 }
 

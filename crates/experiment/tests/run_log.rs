@@ -5,14 +5,17 @@
 use std::fs;
 use std::path::Path;
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::log::{
+use adslam_diagnostics::{Failure, Interrupt};
+use adslam_experiment::run::simulate;
+use adslam_names::{EstimatorName, LengthUnit, Named, PlannerName};
+use adslam_record::Observer;
+use adslam_record::log::{
     EstimateErrors, EstimateLine, FilterChoice, GateChoice, LogReader, LogRecorder, TailPolicy,
     filter_log,
 };
-use adslam_experiment::metrics::RunSummary;
-use adslam_experiment::run::{Interrupt, Observer, Setup, StepView, simulate};
-use adslam_experiment::scenario::{EstimatorName, LengthUnit, Named, PlannerName, Scenario};
+use adslam_scenario::Scenario;
+use adslam_setup::Setup;
+use adslam_simulation::{RunSummary, StepView};
 
 /// Everything that can go wrong with a measurement does, and a gate keeps some of it out.
 const FAULTS: &str = "[mismatch]
@@ -35,13 +38,13 @@ fn scenario(name: &str, estimator: EstimatorName, replace: [&str; 2], more: &str
 }
 
 /// Writes down the log, and the estimates as the filter of a log tells them.
-struct Watch<'a> {
-    log: LogRecorder<'a>,
+struct Watch {
+    log: LogRecorder,
     estimates: Vec<EstimateLine>,
 }
 
-impl Observer for Watch<'_> {
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+impl Observer for Watch {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), Failure> {
         if let Some(update) = view.update {
             self.estimates.push(EstimateLine {
                 errors: Some(EstimateErrors::from(view.metrics)),
@@ -66,9 +69,9 @@ fn text(line: &EstimateLine) -> String {
 fn the_same_bits(scenario: &Scenario, planner: PlannerName) -> (RunSummary, String) {
     let folder = tempfile::tempdir().unwrap();
     let mut setup = Setup::new(scenario).unwrap();
-    setup.steps = 8;
+    setup.model.steps = 8;
     let mut watch = Watch {
-        log: LogRecorder::create(folder.path(), &setup, planner, 3).unwrap(),
+        log: LogRecorder::create(folder.path(), &setup.model, planner, 3).unwrap(),
         estimates: Vec::new(),
     };
     let interrupt = Interrupt::new();
@@ -174,7 +177,7 @@ fn another_filter_than_the_log_says() {
     };
     let (recorded, lines) = filtered(FilterChoice::default());
     assert_eq!(recorded.estimator, EstimatorName::So3Ekf);
-    assert_eq!(recorded.gate_probability.map(|p| *p), Some(0.01));
+    assert_eq!(recorded.gate_probability.map(|p| p.get()), Some(0.01));
     assert!(recorded.numbers.rejected_measurements > 0);
     let (other, others) = filtered(FilterChoice {
         estimator: Some(EstimatorName::EulerEkf),

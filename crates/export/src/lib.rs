@@ -4,7 +4,7 @@
 //! each step, [`write_csv`] every component of the state at each step. All take a [`RunHistory`]
 //! and know nothing of how it came about; files appear under their names only when complete.
 //!
-//! [`RunHistory`]: adslam_experiment::run::RunHistory
+//! [`RunHistory`]: adslam_record::RunHistory
 
 mod ellipsoid;
 mod mcap;
@@ -14,15 +14,15 @@ mod table;
 use std::io;
 use std::path::Path;
 
-use adslam_experiment::ExperimentError;
+use adslam_diagnostics::Failure;
 
 pub use mcap::{Period, write_mcap};
 pub use ply::write_ply;
 pub use table::write_csv;
 
 /// The error of a write to `path`.
-fn failed<E: Into<io::Error>>(path: &Path) -> impl FnOnce(E) -> ExperimentError + '_ {
-    move |cause| ExperimentError::Output {
+fn failed<E: Into<io::Error>>(path: &Path) -> impl FnOnce(E) -> Failure + '_ {
+    move |cause| Failure::Output {
         path: path.to_owned(),
         cause: cause.into(),
     }

@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::output::{AtomicFile, prepare_folder};
-use adslam_experiment::run::{HistoryStep, RunHistory};
+use adslam_diagnostics::Failure;
+use adslam_record::{AtomicFile, HistoryStep, RunHistory, prepare_folder};
 use ply_rs_bw::ply::{
     Addable, Comment, ElementDef, Encoding, Ply, PropertyAccess, PropertyDef, PropertyType,
     ScalarType,
@@ -44,7 +43,7 @@ const FEATURE: &[&str] = &[
 ///
 /// # Errors
 /// A folder or file that cannot be written.
-pub fn write_ply(history: &RunHistory, folder: &Path) -> Result<usize, ExperimentError> {
+pub fn write_ply(history: &RunHistory, folder: &Path) -> Result<usize, Failure> {
     prepare_folder(folder)?;
     let about = |step: usize| {
         format!(
@@ -70,7 +69,7 @@ fn corners(face: &[usize; 3]) -> Vec<i32> {
         .collect()
 }
 
-fn write(path: &Path, mut ply: Ply<Element>) -> Result<(), ExperimentError> {
+fn write(path: &Path, mut ply: Ply<Element>) -> Result<(), Failure> {
     let mut file = AtomicFile::create(path)?;
     Writer::new()
         .write_ply(&mut file, &mut ply)

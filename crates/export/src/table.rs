@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::output::AtomicFile;
-use adslam_experiment::run::{HistoryStep, RunHistory};
+use adslam_diagnostics::Failure;
+use adslam_record::{AtomicFile, HistoryStep, RunHistory};
 use serde::Serialize;
 
 use crate::failed;
@@ -42,7 +41,7 @@ const FEATURE: [(&str, usize); 3] = [("x", 0), ("y", 3), ("z", 5)];
 ///
 /// # Errors
 /// A file that cannot be written; what lay at `out` is then unchanged.
-pub fn write_csv(history: &RunHistory, out: &Path) -> Result<(), ExperimentError> {
+pub fn write_csv(history: &RunHistory, out: &Path) -> Result<(), Failure> {
     let mut writer = csv::Writer::from_writer(AtomicFile::create(out)?);
     for (step, number) in history.steps.iter().zip(1..) {
         for row in pose_rows(step, number).chain(feature_rows(step, number)) {

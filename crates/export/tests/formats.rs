@@ -5,11 +5,13 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use adslam_experiment::run::{
-    DrawnSurface, HistoryRecorder, Interrupt, RunHistory, Setup, simulate,
-};
-use adslam_experiment::scenario::{PlannerName, Scenario};
+use adslam_diagnostics::Interrupt;
+use adslam_experiment::run::simulate;
 use adslam_export::{Period, write_csv, write_mcap, write_ply};
+use adslam_names::PlannerName;
+use adslam_record::{DrawnSurface, HistoryRecorder, RunHistory};
+use adslam_scenario::Scenario;
+use adslam_setup::Setup;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use nalgebra::Point3;
@@ -23,8 +25,8 @@ const STEPS: usize = 4;
 fn history() -> RunHistory {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/heart.toml");
     let mut setup = Setup::new(&Scenario::load(&path).unwrap()).unwrap();
-    setup.steps = STEPS;
-    let mut recorder = HistoryRecorder::new(&setup, PlannerName::Predetermined, 1);
+    setup.model.steps = STEPS;
+    let mut recorder = HistoryRecorder::new(&setup.model, PlannerName::Predetermined, 1);
     let planner = PlannerName::Predetermined;
     simulate(&setup, planner, 1, &Interrupt::new(), &mut recorder).unwrap();
     recorder.into_history()

@@ -1,8 +1,7 @@
 //! Box plots over many runs of every number that the tables show.
 
-use adslam_experiment::metrics::RunSummary;
 use adslam_experiment::tables::{ExperimentTables, PlannerRuns};
-
+use adslam_simulation::RunSummary;
 use plotters::coord::ranged1d::Ranged;
 
 use crate::axis::Axis;

@@ -1,6 +1,6 @@
 //! Figures 4 and 5: the methods' pose errors and decision times against the step.
 
-use adslam_experiment::run::RunHistory;
+use adslam_record::RunHistory;
 
 use crate::axis::Axis;
 use crate::chart::Chart;

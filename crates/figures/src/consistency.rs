@@ -3,7 +3,7 @@
 use adslam_experiment::consistency::{
     CHI_SQUARED_CONFIDENCE, ConsistencyCell, ConsistencyResults, Judgement, Measure,
 };
-use adslam_experiment::scenario::{EstimatorName, PlannerName};
+use adslam_names::{EstimatorName, PlannerName};
 
 use crate::axis::Axis;
 use crate::chart::Chart;

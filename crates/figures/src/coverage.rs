@@ -1,6 +1,6 @@
 //! How much of the object has been seen, against the step.
 
-use adslam_experiment::run::RunHistory;
+use adslam_record::RunHistory;
 
 use crate::axis::Axis;
 use crate::chart::Chart;

@@ -1,6 +1,6 @@
 //! Figure 1: the objects and their features.
 
-use adslam_experiment::run::{DrawnSurface, RunHistory};
+use adslam_record::{DrawnSurface, RunHistory};
 use nalgebra::Point3;
 
 use crate::error::FigureError;

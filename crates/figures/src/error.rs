@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::io;
 
-use adslam_experiment::ExperimentError;
+use adslam_diagnostics::Failure;
 use plotters::drawing::DrawingAreaErrorKind;
 use thiserror::Error;
 
@@ -28,11 +28,11 @@ pub enum FigureError {
     },
     /// A file could not be written.
     #[error(transparent)]
-    Output(#[from] ExperimentError),
+    Output(#[from] Failure),
 }
 
 /// For programs whose other errors are the experiments'.
-impl From<FigureError> for ExperimentError {
+impl From<FigureError> for Failure {
     fn from(error: FigureError) -> Self {
         let cause = io::Error::other(error.to_string());
         match error {

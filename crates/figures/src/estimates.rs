@@ -1,7 +1,7 @@
 //! Figures 2 and 3: where each method believes the robot and the features to be, and where they are.
 
-use adslam_experiment::run::{HistoryStep, RunHistory};
-use adslam_experiment::scenario::PlannerName;
+use adslam_names::PlannerName;
+use adslam_record::{HistoryStep, RunHistory};
 use nalgebra::{Point3, Vector3};
 
 use crate::error::FigureError;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use adslam_experiment::output::AtomicFile;
+use adslam_record::AtomicFile;
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use resvg::tiny_skia::{Pixmap, Transform};

@@ -1,6 +1,6 @@
 //! The figures of the paper, and those that it lacks, drawn from recorded runs.
 //!
-//! Every function takes runs ([`RunHistory`](adslam_experiment::run::RunHistory)) or their
+//! Every function takes runs ([`RunHistory`](adslam_record::RunHistory)) or their
 //! summaries and returns a [`Figure`], which is an SVG document and can be turned into a PNG. The
 //! same runs give the same bytes on every machine: the font is part of the program. A method has
 //! the same colour in all figures, one that is told apart without colour vision.

@@ -1,7 +1,7 @@
 //! What the charts of several methods have in common.
 
-use adslam_experiment::run::{HistoryStep, RunHistory};
-use adslam_experiment::scenario::PlannerName;
+use adslam_names::PlannerName;
+use adslam_record::{HistoryStep, RunHistory};
 
 use crate::error::DrawingError;
 use crate::figure::Area;

@@ -1,6 +1,6 @@
 //! Consistency: the normalised squared error of the pose against the bounds of χ².
 
-use adslam_experiment::run::RunHistory;
+use adslam_record::RunHistory;
 
 use crate::axis::Axis;
 use crate::chart::Chart;

@@ -1,8 +1,8 @@
 //! Each component of the pose error with the band that the filter claims for it.
 
-use adslam_experiment::metrics::MEAN_NORM_OF_UNIT_GAUSSIAN;
-use adslam_experiment::run::{HistoryStep, RunHistory};
-use adslam_experiment::scenario::PlannerName;
+use adslam_names::PlannerName;
+use adslam_record::{HistoryStep, RunHistory};
+use adslam_simulation::MEAN_NORM_OF_UNIT_GAUSSIAN;
 
 use crate::axis::Axis;
 use crate::chart::{Chart, Margins};

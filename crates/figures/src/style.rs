@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use adslam_experiment::scenario::PlannerName;
+use adslam_names::PlannerName;
 
 /// The width of a figure across both columns, px.
 pub(crate) const FULL_WIDTH: f64 = 688.0;

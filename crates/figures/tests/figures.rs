@@ -4,16 +4,20 @@
 
 use std::path::Path;
 
-use adslam_experiment::config::{Config, Selection};
+use adslam_diagnostics::Interrupt;
 use adslam_experiment::consistency::{
     ConsistencyCell, ConsistencyRecord, ConsistencyResults, Measure,
 };
-use adslam_experiment::run::{HistoryRecorder, Interrupt, RunHistory, Setup, simulate};
-use adslam_experiment::scenario::{EstimatorName, PlannerName, Scenario};
+use adslam_experiment::run::simulate;
 use adslam_experiment::tables::{ExperimentTables, TablePlan};
 use adslam_figures::{
     Figure, boxes, comparison, consistency, coverage, environments, estimates, nees, pose_error,
 };
+use adslam_names::{EstimatorName, PlannerName};
+use adslam_record::{HistoryRecorder, RunHistory};
+use adslam_scenario::Scenario;
+use adslam_scenario::config::{Config, Selection};
+use adslam_setup::Setup;
 
 fn file(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -24,9 +28,9 @@ fn file(name: &str) -> std::path::PathBuf {
 fn record(scenario: &str, steps: usize) -> Vec<RunHistory> {
     let scenario = Scenario::load(&file(&format!("scenarios/{scenario}.toml"))).unwrap();
     let mut setup = Setup::new(&scenario).unwrap();
-    setup.steps = steps;
+    setup.model.steps = steps;
     let run = |planner| {
-        let mut recorder = HistoryRecorder::new(&setup, planner, 1);
+        let mut recorder = HistoryRecorder::new(&setup.model, planner, 1);
         simulate(&setup, planner, 1, &Interrupt::new(), &mut recorder).unwrap();
         recorder.into_history()
     };

@@ -6,8 +6,12 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-use adslam_experiment::run::{HistoryRecorder, Interrupt, RunHistory, Setup, simulate};
-use adslam_experiment::scenario::{Named, PlannerName, Scenario};
+use adslam_diagnostics::Interrupt;
+use adslam_experiment::run::simulate;
+use adslam_names::{Named, PlannerName};
+use adslam_record::{HistoryRecorder, RunHistory};
+use adslam_scenario::Scenario;
+use adslam_setup::Setup;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
@@ -27,7 +31,7 @@ fn history(out: &str, run: &str) -> Result<RunHistory, Box<dyn Error>> {
     };
     let setup = Setup::new(&Scenario::load(Path::new(scenario))?)?;
     let planner = PlannerName::named(planner)?;
-    let mut recorder = HistoryRecorder::new(&setup, planner, 1);
+    let mut recorder = HistoryRecorder::new(&setup.model, planner, 1);
     simulate(&setup, planner, 1, &Interrupt::new(), &mut recorder)?;
     let folder = PathBuf::from(format!("{out}.{planner}"));
     std::fs::create_dir_all(&folder)?;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use adslam_experiment::run::RunHistory;
+use adslam_record::RunHistory;
 use thiserror::Error;
 
 use crate::MOST_RUNS;

@@ -11,10 +11,8 @@ mod page;
 
 use std::path::Path;
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::diagnostics::InputError;
-use adslam_experiment::output::AtomicFile;
-use adslam_experiment::run::RunHistory;
+use adslam_diagnostics::{Failure, InputError};
+use adslam_record::{AtomicFile, RunHistory};
 
 pub use embed::{EmbedError, embedded_histories};
 pub use page::MOST_RUNS;
@@ -24,7 +22,7 @@ pub use page::MOST_RUNS;
 /// # Errors
 /// Too few or too many runs, a history that does not fit together, or a file that cannot be
 /// written; what lay at `out` is then unchanged.
-pub fn write_html(histories: &[&RunHistory], out: &Path) -> Result<usize, ExperimentError> {
+pub fn write_html(histories: &[&RunHistory], out: &Path) -> Result<usize, Failure> {
     let page = page_for(histories, out)?;
     AtomicFile::with_content(out, page.as_bytes())?.commit()?;
     Ok(page.len())
@@ -34,7 +32,7 @@ pub fn write_html(histories: &[&RunHistory], out: &Path) -> Result<usize, Experi
 ///
 /// # Errors
 /// As [`write_html`].
-pub fn to_file(histories: &[&RunHistory], out: &Path) -> Result<AtomicFile, ExperimentError> {
+pub fn to_file(histories: &[&RunHistory], out: &Path) -> Result<AtomicFile, Failure> {
     AtomicFile::with_content(out, page_for(histories, out)?.as_bytes())
 }
 

@@ -1,6 +1,6 @@
 //! The page around the runs.
 
-use adslam_experiment::run::RunHistory;
+use adslam_record::RunHistory;
 
 /// How many runs a page can show beside each other.
 pub const MOST_RUNS: usize = 2;

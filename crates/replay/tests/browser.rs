@@ -9,8 +9,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use adslam_experiment::run::RunHistory;
-use adslam_experiment::scenario::PlannerName;
+use adslam_names::PlannerName;
+use adslam_record::RunHistory;
 use adslam_replay::write_html;
 use adslam_test_programs::Program;
 use common::{history, history_with};

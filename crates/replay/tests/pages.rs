@@ -4,8 +4,8 @@ mod common;
 
 use std::fs;
 
-use adslam_experiment::run::HISTORY_FILE;
-use adslam_experiment::scenario::PlannerName;
+use adslam_names::PlannerName;
+use adslam_record::HISTORY_FILE;
 use adslam_replay::{EmbedError, embedded_histories, html, write_html};
 use common::history;
 

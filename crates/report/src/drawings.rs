@@ -1,10 +1,10 @@
 //! The figures of an experiment, as images inside the page.
 
-use adslam_experiment::run::RunHistory;
 use adslam_experiment::tables::ExperimentTables;
 use adslam_figures::{
     Figure, FigureError, boxes, comparison, coverage, environments, estimates, nees, pose_error,
 };
+use adslam_record::RunHistory;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use maud::{Markup, html};

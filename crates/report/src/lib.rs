@@ -14,13 +14,12 @@ mod marks;
 mod page;
 mod tables;
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::output::{AtomicFile, prepare_folder};
+use adslam_diagnostics::Failure;
 use adslam_experiment::tables::{ExperimentTables, Tables};
+use adslam_record::{AtomicFile, prepare_folder};
 
 pub use machine::Machine;
 
@@ -37,7 +36,7 @@ pub const REPLAYS_FOLDER: &str = "replays";
 ///
 /// # Errors
 /// A file that cannot be written; what lay in its place is then unchanged.
-pub fn write(tables: &Tables, folder: &Path) -> Result<PathBuf, ExperimentError> {
+pub fn write(tables: &Tables, folder: &Path) -> Result<PathBuf, Failure> {
     let replays = folder.join(REPLAYS_FOLDER);
     if tables.experiments.iter().any(|e| !e.histories.is_empty()) {
         prepare_folder(&replays)?;
@@ -57,7 +56,7 @@ pub fn write(tables: &Tables, folder: &Path) -> Result<PathBuf, ExperimentError>
 ///
 /// # Errors
 /// A file that cannot be removed.
-pub fn remove(folder: &Path) -> Result<(), ExperimentError> {
+pub fn remove(folder: &Path) -> Result<(), Failure> {
     let mut files = vec![folder.join(REPORT_FILE)];
     if let Ok(entries) = fs::read_dir(folder.join(REPLAYS_FOLDER)) {
         let paths = entries.flatten().map(|entry| entry.path());
@@ -66,7 +65,7 @@ pub fn remove(folder: &Path) -> Result<(), ExperimentError> {
     for path in files {
         match fs::remove_file(&path) {
             Err(cause) if cause.kind() != io::ErrorKind::NotFound => {
-                return Err(ExperimentError::Output { path, cause });
+                return Err(Failure::Output { path, cause });
             }
             _ => {}
         }
@@ -83,7 +82,7 @@ pub fn html(tables: &Tables, machine: &Machine) -> String {
 /// The recorded runs of an experiment with the names of their replays' files.
 fn replays_of(
     experiment: &ExperimentTables,
-) -> impl Iterator<Item = (String, &adslam_experiment::run::RunHistory)> {
+) -> impl Iterator<Item = (String, &adslam_record::RunHistory)> {
     let histories = experiment.histories.iter();
     histories.map(|history| {
         let file = format!("{}-{}.html", experiment.label, history.planner);

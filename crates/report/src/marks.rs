@@ -83,7 +83,8 @@ fn number(x: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use adslam_experiment::tables::{CellValue, Spread};
+    use adslam_experiment::tables::CellValue;
+    use adslam_experiment::tables::Spread;
 
     fn cell(published: f64, ours: [f64; 3]) -> ResultCell {
         ResultCell {

@@ -4,11 +4,11 @@
 
 use std::path::Path;
 
-use adslam_experiment::config::{Config, Selection};
-use adslam_experiment::run::Interrupt;
-use adslam_experiment::scenario::PlannerName;
+use adslam_diagnostics::Interrupt;
 use adslam_experiment::tables::{ResultCell, TablePlan, Tables};
+use adslam_names::PlannerName;
 use adslam_report::{Machine, html, write};
+use adslam_scenario::config::{Config, Selection};
 
 /// Two runs of two quick planners around the polygon, the first of each recorded or not.
 fn tables(record: bool) -> Tables {

@@ -2,10 +2,13 @@
 
 use std::fmt::Write as _;
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::run::{Interrupt, Observer, Setup, StepView, simulate};
-use adslam_experiment::scenario::PlannerName;
+use adslam_diagnostics::{Failure, Interrupt};
+use adslam_experiment::run::simulate;
 use adslam_models::{Control, Pose};
+use adslam_names::PlannerName;
+use adslam_record::Observer;
+use adslam_setup::Setup;
+use adslam_simulation::StepView;
 
 use super::GoldenRun;
 
@@ -16,9 +19,9 @@ impl GoldenRun {
         planner: PlannerName,
         seed: u64,
         interrupt: &Interrupt,
-    ) -> Result<Self, ExperimentError> {
+    ) -> Result<Self, Failure> {
         let mut recorder = Recorder {
-            controls: setup.planning.actions.controls(),
+            controls: setup.model.planning.actions.controls(),
             pose: String::new(),
             lines: Vec::new(),
         };
@@ -26,7 +29,7 @@ impl GoldenRun {
         let mut lines = recorder.lines;
         lines.push(recorder.pose);
         Ok(Self {
-            name: format!("{}, {planner}, seed {seed}", setup.name),
+            name: format!("{}, {planner}, seed {seed}", setup.name()),
             lines,
         })
     }
@@ -41,7 +44,7 @@ struct Recorder<'a> {
 }
 
 impl Observer for Recorder<'_> {
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), Failure> {
         let mut line = std::mem::replace(
             &mut self.pose,
             pose_line(view.step, &view.belief.state.pose),

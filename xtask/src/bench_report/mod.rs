@@ -8,9 +8,8 @@ use std::process::{Command, ExitCode};
 use std::{env, fs, thread};
 
 use adslam_cli::FAILURE;
-use adslam_experiment::output::AtomicFile;
+use adslam_record::AtomicFile;
 use clap::Args;
-
 use measured::Report;
 
 /// The arguments of the task.

@@ -1,6 +1,6 @@
 //! The words for a key's schema: its type, its default, its meaning.
 
-use adslam_experiment::scenario::values::{LARGEST, SMALLEST};
+use adslam_scenario::values::{LARGEST, SMALLEST};
 use serde_json::Value;
 
 use super::reference::{Definitions, is_choice_of_tables, word_beside_tables, words};

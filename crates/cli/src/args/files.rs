@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use adslam_experiment::diagnostics::FileKind;
-use adslam_experiment::scenario::LengthUnit;
-use adslam_experiment::scenario::values::{NonNegative, ValueError};
+use adslam_names::LengthUnit;
+use adslam_scenario::FileKind;
+use adslam_scenario::values::{NonNegative, ValueError};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Subcommand, ValueEnum};
 

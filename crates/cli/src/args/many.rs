@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use adslam_experiment::config::Selection;
-use adslam_experiment::scenario::EstimatorName;
+use adslam_names::EstimatorName;
+use adslam_scenario::config::Selection;
 use clap::Args;
 
 use crate::named::NameParser;

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use adslam_experiment::log::GateChoice;
-use adslam_experiment::output::TumFile;
-use adslam_experiment::scenario::values::{GateProbability, ValueError};
-use adslam_experiment::scenario::{EstimatorName, LengthUnit, PlannerName};
+use adslam_agent::GateProbability;
+use adslam_names::{EstimatorName, LengthUnit, PlannerName};
+use adslam_record::TumFile;
+use adslam_record::log::GateChoice;
+use adslam_scenario::values::{self, ValueError};
 use clap::{Args, ValueEnum};
 
 use crate::named::NameParser;
@@ -131,5 +132,6 @@ fn gate(given: &str) -> Result<GateChoice, ValueError> {
         return Ok(GateChoice::All);
     }
     // What is no number is answered like one that is out of range.
-    GateProbability::new(given.parse().unwrap_or(f64::NAN)).map(GateChoice::Probability)
+    let checked = values::GateProbability::new(given.parse().unwrap_or(f64::NAN))?;
+    Ok(GateProbability::new(*checked).map_or(GateChoice::All, GateChoice::Probability))
 }

@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::config::{CheckedFile, check_file};
-use adslam_experiment::diagnostics::InputError;
+use adslam_diagnostics::{Failure, InputError};
+use adslam_experiment::{CheckedFile, check_file};
 use serde_json::json;
 
 use crate::CheckArgs;
@@ -16,11 +15,11 @@ use crate::print::{tell, warn};
 ///
 /// # Errors
 /// That of a single file; of several, that some are not valid, after each has been explained.
-pub fn check(args: &CheckArgs) -> Result<(), ExperimentError> {
+pub fn check(args: &CheckArgs) -> Result<(), Failure> {
     Answer::give(args.json, |answer| check_all(&args.files, answer))
 }
 
-fn check_all(files: &[PathBuf], answer: &mut Answer) -> Result<(), ExperimentError> {
+fn check_all(files: &[PathBuf], answer: &mut Answer) -> Result<(), Failure> {
     let mut checked = Vec::new();
     let mut wrong = Vec::new();
     for path in files {

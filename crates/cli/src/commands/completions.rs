@@ -1,6 +1,6 @@
 //! `adslam completions`
 
-use adslam_experiment::ExperimentError;
+use adslam_diagnostics::Failure;
 use clap::CommandFactory;
 use clap_complete::Shell;
 
@@ -11,7 +11,7 @@ use crate::print::print;
 ///
 /// # Errors
 /// A standard output that cannot be written to.
-pub fn completions(shell: Shell) -> Result<(), ExperimentError> {
+pub fn completions(shell: Shell) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "adslam", &mut script);
     print(String::from_utf8_lossy(&script).trim_end())

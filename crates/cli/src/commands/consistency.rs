@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use adslam_experiment::ExperimentError;
+use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::consistency::{ConsistencyPlan, ConsistencyResults, Measure, Verdict};
-use adslam_experiment::output::prepare_folder;
-use adslam_experiment::run::Interrupt;
-use adslam_experiment::scenario::{EstimatorName, Named};
+use adslam_names::{EstimatorName, Named};
+use adslam_record::prepare_folder;
 
 use super::study::{finish, other_builds, tell_if_partial};
 use crate::ConsistencyArgs;
@@ -17,7 +16,7 @@ use crate::paths::folder_of;
 ///
 /// # Errors
 /// Bad input, runs that failed, files that cannot be written, or an interruption.
-pub fn consistency(args: &ConsistencyArgs, interrupt: &Interrupt) -> Result<(), ExperimentError> {
+pub fn consistency(args: &ConsistencyArgs, interrupt: &Interrupt) -> Result<(), Failure> {
     Answer::give(args.json, |answer| judge(args, interrupt, answer))
 }
 
@@ -25,7 +24,7 @@ fn judge(
     args: &ConsistencyArgs,
     interrupt: &Interrupt,
     answer: &mut Answer,
-) -> Result<(), ExperimentError> {
+) -> Result<(), Failure> {
     let estimators: &[EstimatorName] = match args.estimators.as_slice() {
         [] => EstimatorName::ALL,
         some => some,
@@ -80,7 +79,7 @@ fn judge(
 }
 
 /// The tables, and figures beside them.
-fn write(results: &ConsistencyResults, folder: &Path) -> Result<Vec<PathBuf>, ExperimentError> {
+fn write(results: &ConsistencyResults, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut files = results.write(folder)?;
     let figures = folder.join("figures");
     prepare_folder(&figures)?;

@@ -1,10 +1,9 @@
 //! `adslam export`
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::diagnostics::InputError;
-use adslam_experiment::output::prepare_folder;
+use adslam_diagnostics::{Failure, InputError};
 use adslam_experiment::run::{StoredRun, refuse_part_of_run};
 use adslam_export::{Period, write_csv, write_mcap, write_ply};
+use adslam_record::prepare_folder;
 
 use crate::ExportArgs;
 use crate::answer::Answer;
@@ -14,11 +13,11 @@ use crate::args::ExportFormat;
 ///
 /// # Errors
 /// A folder without a run, a period that is none, or files that cannot be written.
-pub fn export(args: &ExportArgs) -> Result<(), ExperimentError> {
+pub fn export(args: &ExportArgs) -> Result<(), Failure> {
     Answer::give(args.json, |answer| write(args, answer))
 }
 
-fn write(args: &ExportArgs, answer: &mut Answer) -> Result<(), ExperimentError> {
+fn write(args: &ExportArgs, answer: &mut Answer) -> Result<(), Failure> {
     refuse_part_of_run(&args.out)?;
     let StoredRun { history, warnings } = StoredRun::load(&args.run)?;
     answer.warn(&warnings);

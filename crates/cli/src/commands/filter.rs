@@ -5,11 +5,11 @@ use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::diagnostics::InputError;
-use adslam_experiment::log::{FilterChoice, ReplaySummary, TailPolicy, Trajectory, filter_log};
-use adslam_experiment::output::{AtomicFile, prepare_folder};
-use adslam_experiment::run::{Interrupt, refuse_part_of_run};
+use adslam_agent::GateProbability;
+use adslam_diagnostics::{Failure, InputError, Interrupt};
+use adslam_experiment::run::refuse_part_of_run;
+use adslam_record::log::{FilterChoice, ReplaySummary, TailPolicy, Trajectory, filter_log};
+use adslam_record::{AtomicFile, prepare_folder};
 use indicatif::ProgressBar;
 
 use crate::answer::Answer;
@@ -22,7 +22,7 @@ use crate::{FilterArgs, progress};
 ///
 /// # Errors
 /// Bad input, a covariance that breaks down, a file that cannot be written, or an interruption.
-pub fn filter(args: &FilterArgs, interrupt: &Interrupt) -> Result<(), ExperimentError> {
+pub fn filter(args: &FilterArgs, interrupt: &Interrupt) -> Result<(), Failure> {
     Answer::give(args.json, |answer| filter_all(args, interrupt, answer))
 }
 
@@ -30,7 +30,7 @@ fn filter_all(
     args: &FilterArgs,
     interrupt: &Interrupt,
     answer: &mut Answer,
-) -> Result<(), ExperimentError> {
+) -> Result<(), Failure> {
     check_outputs(args)?;
     let (reader, path, bar) = open(&args.log)?;
     let mut out = Estimates::create(&args.out)?;
@@ -58,7 +58,7 @@ fn filter_all(
     bar.finish_and_clear();
     let summary = match result {
         // Whoever reads the estimates has seen enough, as in `adslam filter … --out - | head`.
-        Err(ExperimentError::Output { cause, .. })
+        Err(Failure::Output { cause, .. })
             if is_standard(&args.out) && cause.kind() == io::ErrorKind::BrokenPipe =>
         {
             return Ok(());
@@ -85,7 +85,8 @@ fn filter_all(
     answer.set("steps", summary.steps);
     answer.set("features", summary.features);
     answer.set("estimator", summary.estimator);
-    answer.set("gate_probability", summary.gate_probability);
+    let gate = summary.gate_probability.map(GateProbability::get);
+    answer.set("gate_probability", gate);
     answer.set(
         "rejected_measurements",
         summary.numbers.rejected_measurements,
@@ -107,7 +108,7 @@ fn say_for_people(summary: &ReplaySummary, written: &[PathBuf], say: &dyn Fn(&dy
     let gate = summary
         .gate_probability
         .map_or(String::new(), |probability| {
-            format!(", gate {}", *probability)
+            format!(", gate {}", probability.get())
         });
     let rejected = match summary.numbers.rejected_measurements {
         0 => String::new(),

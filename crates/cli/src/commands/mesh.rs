@@ -1,6 +1,7 @@
 //! `adslam mesh`
 
-use adslam_experiment::{ExperimentError, MeshReport, MeshUse};
+use adslam_diagnostics::Failure;
+use adslam_setup::{MeshReport, MeshUse};
 
 use crate::MeshArgs;
 use crate::answer::Answer;
@@ -9,7 +10,7 @@ use crate::answer::Answer;
 ///
 /// # Errors
 /// A file that cannot be read as a mesh, or a mesh that will not serve, after it has been described.
-pub fn mesh(args: &MeshArgs) -> Result<(), ExperimentError> {
+pub fn mesh(args: &MeshArgs) -> Result<(), Failure> {
     Answer::give(args.json, |answer| {
         let wanted = MeshUse {
             unit: args.unit,

@@ -3,11 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::diagnostics::InputError;
-use adslam_experiment::output::{AtomicFile, prepare_folder};
+use adslam_diagnostics::{Failure, InputError};
 use adslam_experiment::run::refuse_part_of_run;
-use adslam_experiment::scenario::Scenario;
+use adslam_record::{AtomicFile, prepare_folder};
+use adslam_scenario::Scenario;
 
 use crate::answer::Answer;
 use crate::args::{NewArgs, NewFile};
@@ -21,7 +20,7 @@ const SWEEP: &str = include_str!("../../templates/sweep.toml");
 ///
 /// # Errors
 /// A file that is there already, one that cannot be written, or a scenario that cannot be used.
-pub fn new(file: &NewFile) -> Result<(), ExperimentError> {
+pub fn new(file: &NewFile) -> Result<(), Failure> {
     let (NewFile::Scenario(args) | NewFile::Config { args, .. } | NewFile::Sweep { args, .. }) =
         file;
     Answer::give(args.json, |answer| match file {
@@ -60,7 +59,7 @@ fn write(
     default: &str,
     text: impl FnOnce(&Path) -> Result<String, InputError>,
     answer: &mut Answer,
-) -> Result<PathBuf, ExperimentError> {
+) -> Result<PathBuf, Failure> {
     let out = args.out.clone().unwrap_or_else(|| default.into());
     if !args.force && fs::symlink_metadata(&out).is_ok() {
         let message = format!("{} is there already", out.display());

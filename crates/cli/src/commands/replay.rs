@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::output::prepare_folder;
-use adslam_experiment::run::{RunHistory, StoredRun, refuse_part_of_run};
+use adslam_diagnostics::Failure;
+use adslam_experiment::run::{StoredRun, refuse_part_of_run};
+use adslam_record::{RunHistory, prepare_folder};
 
 use crate::ReplayArgs;
 use crate::answer::Answer;
@@ -14,11 +14,11 @@ use crate::paths::folder_of;
 ///
 /// # Errors
 /// A folder without a run, or a file that cannot be written.
-pub fn replay(args: &ReplayArgs) -> Result<(), ExperimentError> {
+pub fn replay(args: &ReplayArgs) -> Result<(), Failure> {
     Answer::give(args.json, |answer| make_page(args, answer))
 }
 
-fn make_page(args: &ReplayArgs, answer: &mut Answer) -> Result<(), ExperimentError> {
+fn make_page(args: &ReplayArgs, answer: &mut Answer) -> Result<(), Failure> {
     refuse_part_of_run(&args.out)?;
     let load = |folder: &PathBuf| StoredRun::load(folder);
     let runs: Vec<StoredRun> = args.runs.iter().map(load).collect::<Result<_, _>>()?;

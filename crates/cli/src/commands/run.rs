@@ -1,11 +1,13 @@
 //! `adslam run`
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::log::LogRecorder;
-use adslam_experiment::run::{
-    Interrupt, Observer, PAGE_FILE, RunRecorder, RunReport, Setup, StepView, simulate,
-};
-use adslam_experiment::scenario::{Named, Scenario};
+use adslam_diagnostics::{Failure, Interrupt};
+use adslam_experiment::run::{PAGE_FILE, RunRecorder, RunReport, simulate};
+use adslam_names::Named;
+use adslam_record::Observer;
+use adslam_record::log::LogRecorder;
+use adslam_scenario::Scenario;
+use adslam_setup::Setup;
+use adslam_simulation::StepView;
 use indicatif::ProgressBar;
 
 use crate::answer::Answer;
@@ -15,15 +17,11 @@ use crate::{RunArgs, progress};
 ///
 /// # Errors
 /// Bad input, a failure of the run, or an interruption.
-pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), ExperimentError> {
+pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), Failure> {
     Answer::give(args.json, |answer| run_once(args, interrupt, answer))
 }
 
-fn run_once(
-    args: &RunArgs,
-    interrupt: &Interrupt,
-    answer: &mut Answer,
-) -> Result<(), ExperimentError> {
+fn run_once(args: &RunArgs, interrupt: &Interrupt, answer: &mut Answer) -> Result<(), Failure> {
     let mut scenario = Scenario::load(&args.scenario)?;
     if let Some(mesh) = &args.mesh {
         scenario = scenario.with_mesh(mesh);
@@ -31,11 +29,11 @@ fn run_once(
     let setup = Setup::new(&scenario)?;
     answer.warn(&setup.warnings);
     let recorder = RunRecorder::create(&args.out, &setup, args.planner, args.seed, args.unit)?;
-    let log = || LogRecorder::create(&args.out, &setup, args.planner, args.seed);
+    let log = || LogRecorder::create(&args.out, &setup.model, args.planner, args.seed);
     let mut observer = Shown {
         recorder,
         log: args.log.then(log).transpose()?,
-        bar: progress::bar(setup.steps, "steps"),
+        bar: progress::bar(setup.model.steps, "steps"),
     };
     let result = simulate(&setup, args.planner, args.seed, interrupt, &mut observer);
     observer.bar.finish_and_clear();
@@ -57,14 +55,14 @@ fn run_once(
         .map_or("not all seen".to_owned(), |step| {
             format!("all seen at step {step}")
         });
-    answer.set("scenario", &setup.name);
+    answer.set("scenario", setup.name());
     answer.set("planner", args.planner.as_str());
     answer.set("summary", report);
     answer.set_files(&files);
     answer.say(format_args!(
         "{}, {}, seed {}: observed {} feature times, {coverage}, mean pose error {:.3} (drift \
          floor {:.3}), mean feature error {:.3} cm",
-        setup.name,
+        setup.name(),
         args.planner,
         args.seed,
         summary.observed,
@@ -85,14 +83,14 @@ fn run_once(
 }
 
 /// Writes the run down and shows how far it is.
-struct Shown<'a> {
-    recorder: RunRecorder<'a>,
-    log: Option<LogRecorder<'a>>,
+struct Shown {
+    recorder: RunRecorder,
+    log: Option<LogRecorder>,
     bar: ProgressBar,
 }
 
-impl Observer for Shown<'_> {
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+impl Observer for Shown {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), Failure> {
         self.bar.set_position(view.step as u64);
         if let Some(log) = &mut self.log {
             log.step(view)?;

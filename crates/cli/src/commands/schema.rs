@@ -1,8 +1,8 @@
 //! `adslam schema`
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::diagnostics::FileKind;
-use adslam_experiment::schema::json_schema;
+use adslam_diagnostics::Failure;
+use adslam_scenario::FileKind;
+use adslam_scenario::schema::json_schema;
 
 use crate::args::SchemaKind;
 use crate::print::print;
@@ -11,7 +11,7 @@ use crate::print::print;
 ///
 /// # Errors
 /// A standard output that cannot be written to.
-pub fn schema(kind: SchemaKind) -> Result<(), ExperimentError> {
+pub fn schema(kind: SchemaKind) -> Result<(), Failure> {
     print(schema_text(kind.into()).trim_end())
 }
 

@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use adslam_experiment::ExperimentError;
+use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::provenance::remark;
-use adslam_experiment::run::Interrupt;
 use adslam_experiment::study::{OtherBuilds, Study, StudyEnd, StudyUnit};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -33,10 +32,10 @@ pub(super) fn finish<'a, R, W>(
     answer: &mut Answer,
     interrupt: &Interrupt,
     work: W,
-) -> Result<StudyEnd, ExperimentError>
+) -> Result<StudyEnd, Failure>
 where
     R: Serialize + DeserializeOwned + Send,
-    W: Fn(&StudyUnit<'a>, &Interrupt) -> Result<R, ExperimentError> + Sync,
+    W: Fn(&StudyUnit<'a>, &Interrupt) -> Result<R, Failure> + Sync,
 {
     let (total, there) = (study.units().len(), study.done());
     answer.set("runs", total);
@@ -67,7 +66,7 @@ where
     if end.interrupted && !end.failures.is_empty() {
         // The interruption is what the command ends with, and tells nothing of these.
         let failures = end.failures.clone();
-        tell(ExperimentError::Runs { failures });
+        tell(Failure::Runs { failures });
     }
     Ok(end)
 }

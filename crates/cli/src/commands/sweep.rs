@@ -1,7 +1,6 @@
 //! `adslam sweep`
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::run::Interrupt;
+use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::study::SummaryRecord;
 use adslam_experiment::sweep::{SweepPlan, SweepResults};
 
@@ -14,7 +13,7 @@ use crate::paths::folder_of;
 ///
 /// # Errors
 /// Bad input, runs that failed, files that cannot be written, or an interruption.
-pub fn sweep(args: &SweepArgs, interrupt: &Interrupt) -> Result<(), ExperimentError> {
+pub fn sweep(args: &SweepArgs, interrupt: &Interrupt) -> Result<(), Failure> {
     Answer::give(args.json, |answer| run_missing(args, interrupt, answer))
 }
 
@@ -22,7 +21,7 @@ fn run_missing(
     args: &SweepArgs,
     interrupt: &Interrupt,
     answer: &mut Answer,
-) -> Result<(), ExperimentError> {
+) -> Result<(), Failure> {
     let plan = SweepPlan::load(&args.sweep, args.runs)?;
     answer.warn(&plan.warnings());
     let mut study = plan.open(&args.out, other_builds(args.accept_build))?;

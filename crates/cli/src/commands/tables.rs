@@ -3,11 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::output::AtomicFile;
-use adslam_experiment::run::Interrupt;
+use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::study::SummaryRecord;
 use adslam_experiment::tables::{TablePlan, Tables, json, markdown, terminal};
+use adslam_record::AtomicFile;
 
 use super::study::{finish, other_builds, tell_if_partial};
 use crate::TablesArgs;
@@ -21,7 +20,7 @@ use crate::paths::{folder_of, shown};
 ///
 /// # Errors
 /// Bad input, runs that failed, files that cannot be written, or an interruption.
-pub fn tables(args: &TablesArgs, interrupt: &Interrupt) -> Result<(), ExperimentError> {
+pub fn tables(args: &TablesArgs, interrupt: &Interrupt) -> Result<(), Failure> {
     Answer::give(args.json, |answer| run_missing(args, interrupt, answer))
 }
 
@@ -29,7 +28,7 @@ fn run_missing(
     args: &TablesArgs,
     interrupt: &Interrupt,
     answer: &mut Answer,
-) -> Result<(), ExperimentError> {
+) -> Result<(), Failure> {
     let out = args.folder();
     let plan = TablePlan::load(&args.config, &args.selection.selection())?;
     let mut study = plan.open(&out, other_builds(args.accept_build))?;
@@ -61,7 +60,7 @@ fn run_missing(
 }
 
 /// Writes the tables, and first removes a report of others.
-fn write(tables: &Tables, folder: &Path) -> Result<Vec<PathBuf>, ExperimentError> {
+fn write(tables: &Tables, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let paths = ["tables.md", "tables.json"].map(|name| folder.join(name));
     let texts = [markdown(tables), json(tables)?];
     if fs::read_to_string(&paths[1]).ok().as_ref() != Some(&texts[1]) {

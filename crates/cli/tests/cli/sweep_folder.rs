@@ -1,6 +1,7 @@
 //! The folder of a sweep: who may work in it, and what survives.
 
 use std::fs;
+
 #[cfg(unix)]
 use std::process::Command;
 
@@ -9,9 +10,14 @@ use adslam_experiment::provenance::BUILD;
 #[cfg(unix)]
 use super::support::FAILURE;
 use super::support::Place;
+use super::sweep::place;
+use super::sweep::records;
+use super::sweep::start;
+use super::sweep::sweep;
+use super::sweep::tables;
+use super::sweep::wait_for_records;
 #[cfg(unix)]
 use super::sweep::written;
-use super::sweep::{place, records, start, sweep, tables, wait_for_records};
 use super::tables::config;
 
 #[test]

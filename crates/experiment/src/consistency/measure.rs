@@ -2,10 +2,10 @@
 
 use std::fmt;
 
+use adslam_statistics::{Interval, chi_squared};
 use serde::Serialize;
 
 use super::ConsistencyRecord;
-use crate::statistics::{Interval, chi_squared};
 
 /// The probability with which a consistent filter stays within the intervals.
 pub const CHI_SQUARED_CONFIDENCE: f64 = 0.99;

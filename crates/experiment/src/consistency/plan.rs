@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use adslam_diagnostics::{Failure, InputError, Interrupt};
+use adslam_names::{EstimatorName, PlannerName};
+use adslam_scenario::config::{Config, ExperimentPlan, Selection};
+use adslam_setup::Setup;
+
 use super::ConsistencyRecord;
-use crate::ExperimentError;
-use crate::config::{Config, ExperimentPlan, Selection};
-use crate::diagnostics::InputError;
-use crate::run::{Interrupt, Setup, simulate};
-use crate::scenario::{EstimatorName, PlannerName};
+use crate::run::simulate;
 use crate::study::{OtherBuilds, Study, StudyPlan, StudyPoint, StudyUnit, points};
 
 /// Every planner of every experiment with each of the estimators.
@@ -59,7 +60,7 @@ impl ConsistencyPlan {
             points.extend(each_once.iter().map(|&estimator| Point {
                 plan: plan.clone(),
                 estimator,
-                setup: with_estimator(&setup, estimator),
+                setup: setup.with_estimator(estimator),
             }));
         }
         Ok(Self {
@@ -99,7 +100,7 @@ impl ConsistencyPlan {
         &self,
         folder: &Path,
         other_builds: OtherBuilds,
-    ) -> Result<Study<'_, ConsistencyRecord>, ExperimentError> {
+    ) -> Result<Study<'_, ConsistencyRecord>, Failure> {
         Study::open(folder, &self.study(), other_builds)
     }
 
@@ -107,10 +108,7 @@ impl ConsistencyPlan {
     ///
     /// # Errors
     /// As [`simulate`].
-    pub fn run(
-        unit: &StudyUnit<'_>,
-        interrupt: &Interrupt,
-    ) -> Result<ConsistencyRecord, ExperimentError> {
+    pub fn run(unit: &StudyUnit<'_>, interrupt: &Interrupt) -> Result<ConsistencyRecord, Failure> {
         let mut record = ConsistencyRecord::default();
         let outcome = simulate(unit.setup, unit.planner, unit.seed, interrupt, &mut record)?;
         record.summary = Some(outcome.summary);
@@ -134,12 +132,4 @@ impl ConsistencyPlan {
             runs: self.runs,
         }
     }
-}
-
-/// The same with another estimator.
-fn with_estimator(setup: &Setup, estimator: EstimatorName) -> Setup {
-    let mut setup = setup.clone();
-    setup.estimator = estimator.into();
-    setup.scenario.filter.estimator = estimator;
-    setup
 }

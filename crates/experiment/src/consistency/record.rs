@@ -1,12 +1,12 @@
 //! What is kept of a run: every measure of consistency at every step.
 
+use adslam_diagnostics::Failure;
 use adslam_estimator::Nis;
+use adslam_record::Observer;
+use adslam_simulation::{RunSummary, StepView};
 use serde::{Deserialize, Serialize};
 
 use super::Measure;
-use crate::ExperimentError;
-use crate::metrics::RunSummary;
-use crate::run::{Observer, StepView};
 
 /// The consistency of one run. The lists have an entry for each step, step 1 first.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -33,7 +33,7 @@ pub struct ConsistencyRecord {
 }
 
 impl Observer for ConsistencyRecord {
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), Failure> {
         let metrics = view.metrics;
         let numbers = |nis: Nis| (nis.value, nis.dof);
         let update = view.update.copied().unwrap_or_default();

@@ -2,17 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
+use adslam_diagnostics::Failure;
+use adslam_names::{EstimatorName, Named, PlannerName};
+use adslam_record::{AtomicFile, Column, ColumnKind, TableFile};
+use adslam_simulation::RunSummary;
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{ConsistencyPlan, ConsistencyRecord, Judgement, Measure, markdown};
-use crate::ExperimentError;
-use crate::metrics::RunSummary;
-use crate::output::{AtomicFile, Column, ColumnKind, TableFile};
 use crate::provenance::BuildRuns;
-use crate::run::warnings::merged;
-use crate::scenario::{EstimatorName, Named, PlannerName};
+use crate::run::warnings;
 
 /// What a consistency study gave: made of its records alone.
 #[derive(Clone, Debug, Serialize)]
@@ -134,7 +134,7 @@ impl ConsistencyResults {
             first_seed: plan.first_seed,
             cells: cells.collect(),
             builds,
-            warnings: merged(
+            warnings: warnings::merged(
                 records
                     .iter()
                     .flatten()
@@ -156,8 +156,8 @@ impl ConsistencyResults {
     /// lines.
     ///
     /// # Errors
-    /// [`ExperimentError::Output`]; what was there is then unchanged.
-    pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, ExperimentError> {
+    /// [`Failure::Output`]; what was there is then unchanged.
+    pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         let text = markdown::markdown(self);
         let mut files = vec![AtomicFile::with_content(
             &folder.join("consistency.md"),
@@ -175,7 +175,7 @@ impl ConsistencyResults {
     }
 
     /// A row for each cell and measure.
-    fn write_verdicts(&self, folder: &Path) -> Result<TableFile, ExperimentError> {
+    fn write_verdicts(&self, folder: &Path) -> Result<TableFile, Failure> {
         let numbers = [
             "mean_per_dof",
             "low_per_dof",
@@ -201,7 +201,7 @@ impl ConsistencyResults {
     }
 
     /// A row for each cell, measure and step.
-    fn write_steps(&self, folder: &Path) -> Result<TableFile, ExperimentError> {
+    fn write_steps(&self, folder: &Path) -> Result<TableFile, Failure> {
         let mut columns = cell_columns();
         columns.push(Column::new("step", ColumnKind::Integer));
         let numbers = ["mean_per_dof", "low_per_dof", "high_per_dof"];
@@ -223,7 +223,7 @@ impl ConsistencyResults {
     }
 
     /// A row for each cell and feature.
-    fn write_features(&self, folder: &Path) -> Result<TableFile, ExperimentError> {
+    fn write_features(&self, folder: &Path) -> Result<TableFile, Failure> {
         let mut columns = cell_columns();
         columns.push(Column::new("feature", ColumnKind::Integer));
         columns.push(Column::new("mean_per_dof", ColumnKind::Number));

@@ -1,9 +1,9 @@
+use adslam_names::{EstimatorName, PlannerName};
 use rand::SeedableRng;
 use rand_chacha::ChaCha12Rng;
 use rand_distr::{ChiSquared, Distribution};
 
 use super::*;
-use crate::scenario::{EstimatorName, PlannerName};
 
 const STEPS: usize = 30;
 

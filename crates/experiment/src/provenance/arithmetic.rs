@@ -3,11 +3,15 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
+use adslam_diagnostics::{Failure, Interrupt};
+use adslam_names::{EstimatorName, Named, PlannerName};
+use adslam_record::Observer;
+use adslam_scenario::Scenario;
+use adslam_setup::Setup;
+use adslam_simulation::StepView;
 use crc32fast::Hasher;
 
-use crate::ExperimentError;
-use crate::run::{Interrupt, Observer, Setup, StepView, simulate};
-use crate::scenario::{EstimatorName, Named, PlannerName, Scenario};
+use crate::run::simulate;
 
 const CANONICAL: &str = include_str!("canonical.toml");
 
@@ -22,15 +26,12 @@ pub(super) fn checksum() -> &'static str {
 }
 
 /// Every planner with the paper's estimator, and every estimator with a planner that uses its covariance.
-fn computed() -> Result<u32, ExperimentError> {
+fn computed() -> Result<u32, Failure> {
     let scenario = Scenario::parse(CANONICAL, Path::new("canonical.toml"))?;
     let setup = Setup::new(&scenario)?;
     let mut digest = Digest(Hasher::new());
     for &estimator in EstimatorName::ALL {
-        let setup = Setup {
-            estimator: estimator.into(),
-            ..setup.clone()
-        };
+        let setup = setup.with_estimator(estimator);
         for planner in PlannerName::ALL {
             if estimator == EstimatorName::default() || planner == PlannerName::Local {
                 simulate(&setup, planner, 1, &Interrupt::new(), &mut digest)?;
@@ -52,7 +53,7 @@ impl Digest {
 }
 
 impl Observer for Digest {
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), Failure> {
         let belief = view.belief;
         for pose in [view.pose, &belief.state.pose] {
             self.add(&pose.orientation.to_vector());

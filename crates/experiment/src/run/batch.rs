@@ -1,35 +1,12 @@
 //! Many runs in parallel.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
+use adslam_diagnostics::{Failure, Interrupt};
+use adslam_names::PlannerName;
+use adslam_record::{HistoryRecorder, NoObserver};
+use adslam_setup::Setup;
 use rayon::prelude::*;
 
-use super::{HistoryRecorder, NoObserver, RunOutcome, Setup, simulate};
-use crate::ExperimentError;
-use crate::scenario::PlannerName;
-
-/// A wish to stop, which long work looks at between steps.
-#[derive(Debug, Default)]
-pub struct Interrupt(AtomicBool);
-
-impl Interrupt {
-    /// No such wish.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self(AtomicBool::new(false))
-    }
-
-    /// Asks to stop. May be called from a signal handler's thread.
-    pub fn request(&self) {
-        self.0.store(true, Ordering::Relaxed);
-    }
-
-    /// Whether someone asked.
-    #[must_use]
-    pub fn requested(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
-}
+use super::{RunOutcome, simulate};
 
 /// One run to do.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +22,7 @@ pub struct Batch<'a> {
 }
 
 /// What became of it.
-pub type BatchResult = Result<RunOutcome, ExperimentError>;
+pub type BatchResult = Result<RunOutcome, Failure>;
 
 /// Called when a run has finished, from any thread.
 pub type Progress<'a> = &'a (dyn Fn() + Sync);
@@ -64,7 +41,7 @@ impl Batch<'_> {
             .map(|run| {
                 // Even to begin a run, with its viewpoints, takes time.
                 if interrupt.requested() {
-                    return Err(ExperimentError::Interrupted);
+                    return Err(Failure::Interrupted);
                 }
                 let result = run.run(interrupt);
                 progress();
@@ -83,7 +60,7 @@ impl Batch<'_> {
                 &mut NoObserver,
             );
         }
-        let mut recorder = HistoryRecorder::new(self.setup, self.planner, self.seed);
+        let mut recorder = HistoryRecorder::new(&self.setup.model, self.planner, self.seed);
         let outcome = simulate(
             self.setup,
             self.planner,

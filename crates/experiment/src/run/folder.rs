@@ -3,11 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use adslam_diagnostics::{Failure, InputError, is_there};
+use adslam_record::{
+    AtomicFile, FolderLock, HISTORY_FILE, RunHistory, make_folder, prepare_folder,
+};
+
 use super::manifest::{RUN_FILE, RunManifest};
-use super::{HISTORY_FILE, RunHistory};
-use crate::ExperimentError;
-use crate::diagnostics::{InputError, is_there};
-use crate::output::{AtomicFile, FolderLock, make_folder, prepare_folder};
 
 const LOCK: &str = "run.lock";
 const WAIT: &str = "wait until it has ended, or give another folder with --out";
@@ -40,7 +41,7 @@ pub(super) struct RunFolder {
 impl RunFolder {
     /// Makes and locks the folder, removes what a killed process left half-written, and makes sure that it holds
     /// a run or nothing.
-    pub(super) fn lock(path: &Path) -> Result<Self, ExperimentError> {
+    pub(super) fn lock(path: &Path) -> Result<Self, Failure> {
         make_folder(path)?;
         let lock = FolderLock::take(path, LOCK, WAIT)?.temporary();
         refuse_strangers(path)?;
@@ -56,7 +57,7 @@ impl RunFolder {
         &self,
         mut manifest: RunManifest,
         mut files: Vec<AtomicFile>,
-    ) -> Result<Vec<PathBuf>, ExperimentError> {
+    ) -> Result<Vec<PathBuf>, Failure> {
         manifest.take(&mut files)?;
         let marker = manifest.to_file(&self.path)?;
         manifest.complete = true;

@@ -4,14 +4,13 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::Path;
 
+use adslam_diagnostics::{Failure, InputError, is_there, read_text};
+use adslam_names::PlannerName;
+use adslam_record::{AtomicFile, checksum};
+use adslam_setup::Setup;
 use serde::{Deserialize, Serialize};
 
-use super::Setup;
-use crate::ExperimentError;
-use crate::diagnostics::{InputError, is_there, read_text};
-use crate::output::{AtomicFile, checksum};
 use crate::provenance::Build;
-use crate::scenario::PlannerName;
 
 /// The name of the file in a run's folder.
 pub const RUN_FILE: &str = "run.json";
@@ -50,7 +49,7 @@ impl RunManifest {
             format: FORMAT.to_owned(),
             version: VERSION,
             complete: false,
-            scenario: setup.name.clone(),
+            scenario: setup.name().to_owned(),
             planner,
             seed,
             object_checksum: setup.object_checksum(),
@@ -60,7 +59,7 @@ impl RunManifest {
     }
 
     /// Takes files for parts of the run.
-    pub(super) fn take(&mut self, files: &mut [AtomicFile]) -> Result<(), ExperimentError> {
+    pub(super) fn take(&mut self, files: &mut [AtomicFile]) -> Result<(), Failure> {
         for file in files {
             let name = file.path().file_name().unwrap_or_default();
             let name = name.to_string_lossy().into_owned();
@@ -70,7 +69,7 @@ impl RunManifest {
     }
 
     /// As a file that will lie in `folder`.
-    pub(super) fn to_file(&self, folder: &Path) -> Result<AtomicFile, ExperimentError> {
+    pub(super) fn to_file(&self, folder: &Path) -> Result<AtomicFile, Failure> {
         let mut file = AtomicFile::create(&folder.join(RUN_FILE))?;
         file.add_json(self)?;
         Ok(file)

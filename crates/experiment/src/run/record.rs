@@ -3,23 +3,24 @@
 
 use std::path::{Path, PathBuf};
 
+use adslam_diagnostics::Failure;
+use adslam_names::{LengthUnit, PlannerName};
+use adslam_record::{
+    AtomicFile, FeaturesFile, HistoryRecorder, LastFeatures, Observer, PoseCovarianceFile,
+    RunHistory, StepsFile, TumFile, TumTime,
+};
+use adslam_setup::Setup;
+use adslam_simulation::{RunSummary, StepView};
 use serde::Serialize;
 
 use super::folder::{RunFolder, SCENARIO_FILE};
 use super::manifest::RunManifest;
-use super::{HistoryRecorder, Observer, RunHistory, Setup, StepView};
-use crate::ExperimentError;
-use crate::metrics::RunSummary;
-use crate::output::{
-    AtomicFile, FeaturesFile, LastFeatures, PoseCovarianceFile, StepsFile, TumFile, TumTime,
-};
-use crate::scenario::{LengthUnit, PlannerName};
 
 /// Writes a run into a folder. The files appear when the run has finished, all complete, in the place of the run that
 /// was there.
 #[derive(Debug)]
-pub struct RunRecorder<'a> {
-    history: HistoryRecorder<'a>,
+pub struct RunRecorder {
+    history: HistoryRecorder,
     summary: AtomicFile,
     scenario: AtomicFile,
     steps: StepsFile,
@@ -43,28 +44,28 @@ pub struct RunReport<'a> {
     pub warnings: &'a [String],
 }
 
-impl<'a> RunRecorder<'a> {
+impl RunRecorder {
     /// Begins to write the run of `planner` with `seed` into `folder`, which is made if need be and is locked until
     /// the recorder is dropped; the positions of the trajectories in `unit`.
     ///
     /// # Errors
-    /// [`InputError`](crate::diagnostics::InputError) where the folder holds anything but a run, where another
-    /// process works in it and where it cannot be written to; [`ExperimentError::Output`].
+    /// [`InputError`](adslam_diagnostics::InputError) where the folder holds anything but a run, where another
+    /// process works in it and where it cannot be written to; [`Failure::Output`].
     pub fn create(
         folder: &Path,
-        setup: &'a Setup,
+        setup: &Setup,
         planner: PlannerName,
         seed: u64,
         unit: LengthUnit,
-    ) -> Result<Self, ExperimentError> {
+    ) -> Result<Self, Failure> {
         let scenario = setup.scenario.to_toml()?;
         let lock = RunFolder::lock(folder)?;
-        let feature_count = setup.world.rest.len();
+        let feature_count = setup.model.world.rest.len();
         let path = |name: &str| folder.join(name);
         let trajectory =
             |name: &str| TumFile::create(&path(name), TumTime::Step, LengthUnit::Cm, unit);
         Ok(Self {
-            history: HistoryRecorder::new(setup, planner, seed),
+            history: HistoryRecorder::new(&setup.model, planner, seed),
             summary: AtomicFile::create(&path("summary.json"))?,
             scenario: AtomicFile::with_content(&path(SCENARIO_FILE), scenario.as_bytes())?,
             steps: StepsFile::create(&path("steps.csv"), feature_count)?,
@@ -89,12 +90,12 @@ impl<'a> RunRecorder<'a> {
     /// there are removed before. run.json comes last: where it says so, the others are there and of one run.
     ///
     /// # Errors
-    /// [`ExperimentError::Output`]; unless a file cannot be renamed, nothing has changed then.
+    /// [`Failure::Output`]; unless a file cannot be renamed, nothing has changed then.
     pub fn commit(
         mut self,
         report: &RunReport<'_>,
         others: Vec<AtomicFile>,
-    ) -> Result<Vec<PathBuf>, ExperimentError> {
+    ) -> Result<Vec<PathBuf>, Failure> {
         self.summary.add_json(report)?;
         let mut files = vec![
             self.scenario,
@@ -111,8 +112,8 @@ impl<'a> RunRecorder<'a> {
     }
 }
 
-impl Observer for RunRecorder<'_> {
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ExperimentError> {
+impl Observer for RunRecorder {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), Failure> {
         self.steps.add(view)?;
         self.pose_covariance.add(view)?;
         self.features.add(view);

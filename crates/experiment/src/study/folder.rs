@@ -1,18 +1,16 @@
 //! The folder of a study: locked, of one plan, without litter.
 
 use std::collections::HashSet;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
+use adslam_diagnostics::{Failure, InputError, is_there, read_text};
+use adslam_record::{AtomicFile, FolderLock, make_folder, prepare_folder};
 use serde::Deserialize;
 
 use super::kept::{FORMAT, Grown, KeptPlan, VERSION};
 use super::record::RecordFile;
 use super::{OtherBuilds, StudyPlan, StudyUnit};
-use crate::ExperimentError;
-use crate::diagnostics::{InputError, is_there, read_text};
-use crate::output::{AtomicFile, FolderLock, make_folder, prepare_folder};
 use crate::provenance::Build;
 
 const LOCK: &str = "study.lock";
@@ -57,7 +55,7 @@ impl StudyFolder {
         path: &Path,
         plan: &StudyPlan<'a>,
         other_builds: OtherBuilds,
-    ) -> Result<(Self, Vec<StudyUnit<'a>>), ExperimentError> {
+    ) -> Result<(Self, Vec<StudyUnit<'a>>), Failure> {
         make_folder(path)?;
         let lock = FolderLock::take(path, LOCK, WAIT)?;
         let there = kept_plan(path)?;
@@ -97,7 +95,7 @@ impl StudyFolder {
 
     /// Makes it ready for records: removes what was half-written and the tables of a part of the runs, and writes
     /// the plan where it is another than before.
-    pub(super) fn prepare(&self) -> Result<(), ExperimentError> {
+    pub(super) fn prepare(&self) -> Result<(), Failure> {
         prepare_folder(&self.path)?;
         prepare_folder(&self.records)?;
         if self.there.is_some() {
@@ -139,10 +137,10 @@ impl StudyFolder {
 }
 
 /// Removes a folder of results, if it is there.
-fn remove_folder(folder: &Path) -> Result<(), ExperimentError> {
+fn remove_folder(folder: &Path) -> Result<(), Failure> {
     match fs::remove_dir_all(folder) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => {
-            Err(ExperimentError::output(folder)(error))
+            Err(Failure::output(folder)(error))
         }
         _ => Ok(()),
     }

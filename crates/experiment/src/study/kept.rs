@@ -2,16 +2,15 @@
 
 use std::collections::{HashMap, VecDeque};
 
+use adslam_names::PlannerName;
 use crc32fast::Hasher;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::content::Content;
-use super::refusal;
-use super::{StudyPlan, StudyUnit};
+use super::{StudyPlan, StudyUnit, refusal};
 use crate::provenance::Build;
-use crate::scenario::PlannerName;
 
 /// What plan.json says it is.
 pub(super) const FORMAT: &str = "adslam-study";

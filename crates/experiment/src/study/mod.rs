@@ -31,9 +31,10 @@ use serde::de::DeserializeOwned;
 pub use plan::{StudyPlan, StudyPoint, StudyUnit};
 pub use summary::SummaryRecord;
 
-use crate::ExperimentError;
 use crate::provenance::BuildRuns;
-use crate::run::{Interrupt, Progress};
+use crate::run::Progress;
+use adslam_diagnostics::Failure;
+use adslam_diagnostics::Interrupt;
 use folder::StudyFolder;
 use record::{RecordFile, encode};
 
@@ -70,10 +71,10 @@ impl StudyEnd {
     /// An error if not every unit was done.
     ///
     /// # Errors
-    /// [`ExperimentError::Interrupted`] where the user stopped it, else [`ExperimentError::Runs`] where units
+    /// [`Failure::Interrupted`] where the user stopped it, else [`Failure::Runs`] where units
     /// failed.
-    pub fn into_result(self) -> Result<(), ExperimentError> {
-        ExperimentError::unless_complete(self.interrupted, self.failures)
+    pub fn into_result(self) -> Result<(), Failure> {
+        Failure::unless_complete(self.interrupted, self.failures)
     }
 }
 
@@ -83,7 +84,7 @@ enum Outcome<R> {
     Failed(String),
     /// Not begun or not finished, as the user or a failed write stopped the work.
     Stopped,
-    NotWritten(ExperimentError),
+    NotWritten(Failure),
 }
 
 impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
@@ -92,15 +93,15 @@ impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
     /// process left half-written, and writes down what the study has become.
     ///
     /// # Errors
-    /// [`InputError`](crate::diagnostics::InputError) where another process works in the folder, where it holds
+    /// [`InputError`](adslam_diagnostics::InputError) where another process works in the folder, where it holds
     /// another study, runs that are not in the plan, or runs of another build, where a record is damaged or
     /// foreign, and where it cannot be written to; nothing of what is there is changed then, but for the lock's
-    /// file. [`ExperimentError::Output`] where the plan cannot be written.
+    /// file. [`Failure::Output`] where the plan cannot be written.
     pub fn open(
         folder: &Path,
         plan: &StudyPlan<'a>,
         other_builds: OtherBuilds,
-    ) -> Result<Self, ExperimentError> {
+    ) -> Result<Self, Failure> {
         let (folder, units) = StudyFolder::lock(folder, plan, other_builds)?;
         let read: Vec<_> = units
             .par_iter()
@@ -150,19 +151,19 @@ impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
     /// after each. A unit that fails does not stop the others, and is tried again next time.
     ///
     /// `work` should look at the [`Interrupt`] that it is given and then return
-    /// [`ExperimentError::Interrupted`].
+    /// [`Failure::Interrupted`].
     ///
     /// # Errors
-    /// [`ExperimentError::Output`] where a record cannot be written; no further unit is begun then, and the
+    /// [`Failure::Output`] where a record cannot be written; no further unit is begun then, and the
     /// records that were written stay.
     pub fn finish<W>(
         &mut self,
         interrupt: &Interrupt,
         progress: Progress<'_>,
         work: W,
-    ) -> Result<StudyEnd, ExperimentError>
+    ) -> Result<StudyEnd, Failure>
     where
-        W: Fn(&StudyUnit<'a>, &Interrupt) -> Result<R, ExperimentError> + Sync,
+        W: Fn(&StudyUnit<'a>, &Interrupt) -> Result<R, Failure> + Sync,
     {
         let missing = self.records.iter().enumerate();
         let missing = missing.filter(|(_, record)| record.is_none());
@@ -210,7 +211,7 @@ fn done<R: Serialize + DeserializeOwned>(
     file: &RecordFile<'_>,
     build: usize,
     unit: &StudyUnit<'_>,
-    work: impl FnOnce() -> Result<R, ExperimentError>,
+    work: impl FnOnce() -> Result<R, Failure>,
 ) -> Outcome<R> {
     let failed = |reason: String| {
         let name = unit.label.map_or_else(|| unit.key(), str::to_owned);
@@ -218,8 +219,8 @@ fn done<R: Serialize + DeserializeOwned>(
     };
     let record = match work() {
         Ok(record) => record,
-        Err(ExperimentError::Interrupted) => return Outcome::Stopped,
-        Err(error @ ExperimentError::Output { .. }) => return Outcome::NotWritten(error),
+        Err(Failure::Interrupted) => return Outcome::Stopped,
+        Err(error @ Failure::Output { .. }) => return Outcome::NotWritten(error),
         Err(error) => return failed(error.to_string()),
     };
     match encode(&record) {

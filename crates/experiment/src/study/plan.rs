@@ -1,7 +1,7 @@
 //! What a study does.
 
-use crate::run::Setup;
-use crate::scenario::PlannerName;
+use adslam_names::PlannerName;
+use adslam_setup::Setup;
 
 /// A point of a study: where, and by which planners.
 #[derive(Clone, Copy, Debug)]

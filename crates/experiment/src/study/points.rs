@@ -2,8 +2,9 @@
 
 use std::collections::HashSet;
 
+use adslam_names::PlannerName;
+
 use super::StudyPoint;
-use crate::scenario::PlannerName;
 
 /// What the user should know before running, each once: of the setups, then of the planners' deadlines.
 pub(crate) fn warnings<'a>(points: impl Iterator<Item = StudyPoint<'a>> + Clone) -> Vec<String> {

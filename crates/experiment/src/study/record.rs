@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use adslam_diagnostics::{Failure, InputError, is_there, read_text};
+use adslam_record::AtomicFile;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::folder::checksum;
-use crate::ExperimentError;
-use crate::diagnostics::{InputError, is_there, read_text};
-use crate::output::AtomicFile;
 use crate::provenance::Build;
 
 const FORMAT: &str = "adslam-record";
@@ -66,7 +65,7 @@ impl<'a> RecordFile<'a> {
     }
 
     /// Writes the record, given as a line of JSON, of one of the builds.
-    pub(super) fn write(&self, json: &str, build: usize) -> Result<(), ExperimentError> {
+    pub(super) fn write(&self, json: &str, build: usize) -> Result<(), Failure> {
         let header = Header {
             format: FORMAT.to_owned(),
             version: VERSION,

@@ -1,12 +1,12 @@
 //! Why a folder does not hold what a plan asks for, in words.
 
+use adslam_names::PlannerName;
 use serde_json::Value;
 
 use super::content::Content;
 use super::difference::differs_optionally;
 use super::kept::{Asked, KeptPlan, KeptPoint};
 use super::points::distinct;
-use crate::scenario::PlannerName;
 
 /// More differences than these are only counted.
 const MOST_NAMED: usize = 6;

@@ -5,9 +5,10 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use adslam_diagnostics::Failure;
+use adslam_record::prepare_folder;
+
 use super::Study;
-use crate::ExperimentError;
-use crate::output::prepare_folder;
 
 /// Folders of the results that have files by what was run.
 const FOLDERS: [&str; 1] = ["figures"];
@@ -27,8 +28,8 @@ impl<R> Study<'_, R> {
     /// Those of `write`, and a folder that cannot be made.
     pub fn write_results(
         &self,
-        write: impl FnOnce(&Path) -> Result<Vec<PathBuf>, ExperimentError>,
-    ) -> Result<Vec<PathBuf>, ExperimentError> {
+        write: impl FnOnce(&Path) -> Result<Vec<PathBuf>, Failure>,
+    ) -> Result<Vec<PathBuf>, Failure> {
         let folder = if self.is_complete() {
             self.folder.path().to_owned()
         } else {
@@ -43,7 +44,7 @@ impl<R> Study<'_, R> {
 
 /// Removes figures and Parquet tables that were written once and are not among `written`: of a label that is
 /// another now, or by a build with other features.
-fn remove_stale(folder: &Path, written: &[PathBuf]) -> Result<(), ExperimentError> {
+fn remove_stale(folder: &Path, written: &[PathBuf]) -> Result<(), Failure> {
     let written: HashSet<&Path> = written.iter().map(PathBuf::as_path).collect();
     let within = FOLDERS.map(|name| folder.join(name));
     for (at, extensions) in std::iter::once((folder, &["parquet"][..]))
@@ -56,7 +57,7 @@ fn remove_stale(folder: &Path, written: &[PathBuf]) -> Result<(), ExperimentErro
             let extension = path.extension().and_then(OsStr::to_str);
             let is_ours = extension.is_some_and(|extension| extensions.contains(&extension));
             if is_ours && !written.contains(path.as_path()) {
-                fs::remove_file(&path).map_err(ExperimentError::output(&path))?;
+                fs::remove_file(&path).map_err(Failure::output(&path))?;
             }
         }
     }

@@ -1,11 +1,12 @@
 //! What most studies keep of a run.
 
+use adslam_diagnostics::{Failure, Interrupt};
+use adslam_record::NoObserver;
+use adslam_simulation::RunSummary;
 use serde::{Deserialize, Serialize};
 
 use super::StudyUnit;
-use crate::ExperimentError;
-use crate::metrics::RunSummary;
-use crate::run::{Interrupt, NoObserver, RunOutcome, simulate};
+use crate::run::{RunOutcome, simulate};
 
 /// A run in a few numbers, and what is to be said of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,7 +23,7 @@ impl SummaryRecord {
     ///
     /// # Errors
     /// As [`simulate`].
-    pub fn of_unit(unit: &StudyUnit<'_>, interrupt: &Interrupt) -> Result<Self, ExperimentError> {
+    pub fn of_unit(unit: &StudyUnit<'_>, interrupt: &Interrupt) -> Result<Self, Failure> {
         let StudyUnit {
             setup,
             planner,

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use adslam_statistics::{BOOTSTRAP_CONFIDENCE, MeanEstimate, RankComparison};
 use comfy_table::{CellAlignment, Table, presets};
 use serde_json::Value;
 
@@ -9,7 +10,6 @@ use super::SweepResults;
 use super::metrics::{SEES_ALL, STEPS_TO_SEE_ALL};
 use super::point::{Comparison, Tested};
 use crate::provenance::remark;
-use crate::statistics::{BOOTSTRAP_CONFIDENCE, MeanEstimate, RankComparison};
 
 /// A metric that people are shown.
 struct Shown {

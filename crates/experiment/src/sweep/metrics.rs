@@ -1,8 +1,7 @@
 //! The numbers of a run by name.
 
+use adslam_simulation::RunSummary;
 use serde_json::{Map, Value};
-
-use crate::metrics::RunSummary;
 
 /// The keys of a summary that are no numbers of their own: the seed; times, which differ from run to run; and the
 /// table of faults.

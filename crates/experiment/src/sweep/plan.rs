@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use super::Sweep;
-use crate::ExperimentError;
-use crate::config::checked_runs;
-use crate::diagnostics::InputError;
-use crate::run::Setup;
+use adslam_diagnostics::{Failure, InputError};
+use adslam_scenario::config::checked_runs;
+use adslam_scenario::sweep::Sweep;
+use adslam_setup::Setup;
+
 use crate::study::{OtherBuilds, Study, StudyPlan, StudyPoint, SummaryRecord, points};
 
 /// A sweep made ready to run: the object of every point built.
@@ -84,7 +84,7 @@ impl SweepPlan {
         &self,
         folder: &Path,
         other_builds: OtherBuilds,
-    ) -> Result<Study<'_, SummaryRecord>, ExperimentError> {
+    ) -> Result<Study<'_, SummaryRecord>, Failure> {
         Study::open(folder, &self.study(), other_builds)
     }
 

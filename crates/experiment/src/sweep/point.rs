@@ -1,9 +1,9 @@
 //! What the runs of one point say: a mean for each planner, and every pair of planners compared.
 
+use adslam_statistics::{MeanEstimate, PairedComparison, RankComparison, holm, interval_of_share};
 use serde_json::{Map, Value};
 
 use super::metrics::{SEES_ALL, STEPS_TO_SEE_ALL};
-use crate::statistics::{MeanEstimate, PairedComparison, RankComparison, holm, interval_of_share};
 
 /// The metrics of a planner's runs at one point, seed by seed; none where the run has not been done.
 pub(super) type PlannerMetrics = Vec<Option<Map<String, Value>>>;

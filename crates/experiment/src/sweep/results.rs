@@ -2,18 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
+use adslam_diagnostics::Failure;
+use adslam_names::Named;
+use adslam_record::{AtomicFile, Column, ColumnKind, TableFile};
+use adslam_statistics::{MeanEstimate, RankComparison};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::metrics::metrics;
 use super::point::{PlannerMetrics, PointStatistics};
 use super::{SweepPlan, markdown};
-use crate::ExperimentError;
-use crate::output::{AtomicFile, Column, ColumnKind, TableFile};
 use crate::provenance::BuildRuns;
-use crate::run::warnings::merged;
-use crate::scenario::Named;
-use crate::statistics::{MeanEstimate, RankComparison};
+use crate::run::warnings;
 use crate::study::SummaryRecord;
 
 /// What a sweep gave: made of its records alone, the same whenever and in whatever order they were written.
@@ -70,15 +70,15 @@ impl<'a> SweepResults<'a> {
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let done = self.records.iter().flatten();
-        merged(done.map(|record| record.warnings.as_slice()))
+        warnings::merged(done.map(|record| record.warnings.as_slice()))
     }
 
     /// Writes all tables into `folder` and returns their paths: runs, table and comparisons in the formats of
     /// [`TableFile`], and table.md for people.
     ///
     /// # Errors
-    /// [`ExperimentError::Output`]; the tables that were there are then unchanged.
-    pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, ExperimentError> {
+    /// [`Failure::Output`]; the tables that were there are then unchanged.
+    pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         let mut files = Vec::new();
         for table in [
             self.write_runs(folder)?,
@@ -98,7 +98,7 @@ impl<'a> SweepResults<'a> {
     }
 
     /// A row a run.
-    fn write_runs(&self, folder: &Path) -> Result<TableFile, ExperimentError> {
+    fn write_runs(&self, folder: &Path) -> Result<TableFile, Failure> {
         let mut columns = self.columns_of_points();
         columns.push(Column::new("planner", ColumnKind::Text));
         columns.push(Column::new("seed", ColumnKind::Integer));
@@ -120,7 +120,7 @@ impl<'a> SweepResults<'a> {
     }
 
     /// A row for each planner at each point.
-    fn write_table(&self, folder: &Path) -> Result<TableFile, ExperimentError> {
+    fn write_table(&self, folder: &Path) -> Result<TableFile, Failure> {
         let mut columns = self.columns_of_points();
         columns.push(Column::new("planner", ColumnKind::Text));
         columns.push(Column::new("runs", ColumnKind::Integer));
@@ -147,7 +147,7 @@ impl<'a> SweepResults<'a> {
     }
 
     /// A row for each pair of planners, metric by metric, point by point.
-    fn write_comparisons(&self, folder: &Path) -> Result<TableFile, ExperimentError> {
+    fn write_comparisons(&self, folder: &Path) -> Result<TableFile, Failure> {
         let mut columns = self.columns_of_points();
         columns
             .extend(["metric", "planner", "other"].map(|name| Column::new(name, ColumnKind::Text)));

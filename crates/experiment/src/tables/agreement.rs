@@ -1,6 +1,6 @@
 //! How well our results agree with published ones.
 
-use crate::statistics::{Interval, Statistic, interval_of_few};
+use adslam_statistics::{Interval, Statistic, interval_of_few};
 
 /// Results that differ by up to this share of the published value are near, if they do not agree.
 pub const NEAR_WITHIN: f64 = 0.25;

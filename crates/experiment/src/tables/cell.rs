@@ -2,8 +2,9 @@
 
 use std::fmt;
 
+use adslam_statistics::Interval;
+
 use super::{Agreement, Comparison, Spread};
-use crate::statistics::Interval;
 
 /// A published value, if there is one, and ours.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use crate::ExperimentError;
-use crate::config::PublishedScenario;
-use crate::metrics::RunSummary;
+use adslam_diagnostics::Failure;
+use adslam_names::PlannerName;
+use adslam_record::RunHistory;
+use adslam_scenario::config::PublishedScenario;
+use adslam_simulation::RunSummary;
+
 use crate::provenance::BuildRuns;
-use crate::run::RunHistory;
-use crate::scenario::PlannerName;
 
 /// The results of a configuration.
 #[derive(Clone, Debug)]
@@ -22,7 +23,7 @@ pub struct Tables {
     pub experiments: Vec<ExperimentTables>,
     /// The configuration and then its scenarios, each once.
     pub sources: Vec<SourceFile>,
-    /// The mesh that took the place of the scenarios' own, as [`Selection::mesh`](crate::config::Selection::mesh) says.
+    /// The mesh that took the place of the scenarios' own, as [`Selection::mesh`](adslam_scenario::config::Selection::mesh) says.
     pub mesh: Option<PathBuf>,
     /// Runs that failed, and why.
     pub failures: Vec<String>,
@@ -80,10 +81,10 @@ impl Tables {
     /// An error if it is not.
     ///
     /// # Errors
-    /// [`ExperimentError::Interrupted`] where runs were not done, else [`ExperimentError::Runs`]
+    /// [`Failure::Interrupted`] where runs were not done, else [`Failure::Runs`]
     /// where some failed.
-    pub fn into_result(self) -> Result<(), ExperimentError> {
-        ExperimentError::unless_complete(self.interrupted, self.failures)
+    pub fn into_result(self) -> Result<(), Failure> {
+        Failure::unless_complete(self.interrupted, self.failures)
     }
 
     /// Adds warnings that are not there yet: two experiments may give the same.
@@ -100,7 +101,7 @@ impl Tables {
 mod tests {
     use super::*;
 
-    fn result(failures: &[&str], interrupted: bool) -> Result<(), ExperimentError> {
+    fn result(failures: &[&str], interrupted: bool) -> Result<(), Failure> {
         let tables = Tables {
             title: String::new(),
             runs: 2,
@@ -120,10 +121,10 @@ mod tests {
     fn an_interruption_stays_one_whatever_had_failed_before() {
         assert!(result(&[], false).is_ok());
         let failed = result(&["a"], false);
-        assert!(matches!(failed, Err(ExperimentError::Runs { failures }) if failures == ["a"]));
+        assert!(matches!(failed, Err(Failure::Runs { failures }) if failures == ["a"]));
         for failures in [&[][..], &["a"]] {
             let stopped = result(failures, true);
-            assert!(matches!(stopped, Err(ExperimentError::Interrupted)));
+            assert!(matches!(stopped, Err(Failure::Interrupted)));
         }
     }
 }

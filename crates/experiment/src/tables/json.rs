@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use adslam_diagnostics::Failure;
+use adslam_names::Named;
+use adslam_scenario::config::PublishedScenario;
+use adslam_simulation::RunSummary;
 use serde::Serialize;
 
 use super::{Agreement, ExperimentTables, Tables};
-use crate::ExperimentError;
-use crate::config::PublishedScenario;
-use crate::metrics::RunSummary;
 use crate::provenance::BuildRuns;
-use crate::scenario::Named;
 
 #[derive(Serialize)]
 struct TablesJson<'a> {
@@ -69,8 +69,8 @@ struct PublishedPlannerJson {
 /// All runs, the published values, and how they compare, as JSON.
 ///
 /// # Errors
-/// [`ExperimentError::Output`] of a number that JSON cannot hold.
-pub fn json(tables: &Tables) -> Result<String, ExperimentError> {
+/// [`Failure::Output`] of a number that JSON cannot hold.
+pub fn json(tables: &Tables) -> Result<String, Failure> {
     let scenarios = tables.experiments.iter().map(|experiment| {
         let planners = experiment.planners.iter();
         let planners = planners
@@ -96,7 +96,7 @@ pub fn json(tables: &Tables) -> Result<String, ExperimentError> {
         comparisons: tables.experiments.iter().flat_map(comparisons).collect(),
     };
     let text = serde_json::to_string_pretty(&json);
-    let text = text.map_err(ExperimentError::output(Path::new("tables.json")))?;
+    let text = text.map_err(Failure::output(Path::new("tables.json")))?;
     Ok(text + "\n")
 }
 

@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use adslam_diagnostics::{Failure, InputError, Interrupt};
+use adslam_scenario::config::{Config, ExperimentPlan, Selection};
+use adslam_setup::Setup;
+use adslam_simulation::RunSummary;
+
 use super::{ExperimentTables, PlannerRuns, SourceFile, Tables};
-use crate::ExperimentError;
-use crate::config::{Config, ExperimentPlan, Selection};
-use crate::diagnostics::InputError;
-use crate::metrics::RunSummary;
 use crate::provenance::{Build, BuildRuns};
-use crate::run::warnings::merged;
-use crate::run::{Batch, Interrupt, Progress, Setup};
+use crate::run::{Batch, Progress, warnings};
 use crate::study::{
     OtherBuilds, Study, StudyEnd, StudyPlan, StudyPoint, StudyUnit, SummaryRecord, points,
 };
@@ -117,7 +117,7 @@ impl TablePlan {
         &self,
         folder: &Path,
         other_builds: OtherBuilds,
-    ) -> Result<Study<'_, SummaryRecord>, ExperimentError> {
+    ) -> Result<Study<'_, SummaryRecord>, Failure> {
         Study::open(folder, &self.study(), other_builds)
     }
 
@@ -154,10 +154,10 @@ impl TablePlan {
                 }
             });
             let planners = planners.collect();
-            tables.warn(merged(of_runs));
+            tables.warn(warnings::merged(of_runs));
             tables.experiments.push(ExperimentTables {
                 label: plan.label.clone(),
-                steps: setup.steps,
+                steps: setup.model.steps,
                 planners,
                 published: plan.published.clone(),
                 histories: Vec::new(),
@@ -177,7 +177,7 @@ impl TablePlan {
         let results = Batch::run_all(&batch, interrupt, progress).into_iter();
         let records = results.zip(&units).map(|(result, unit)| match result {
             Ok(outcome) => Some(SummaryRecord::from(outcome)),
-            Err(ExperimentError::Interrupted) => {
+            Err(Failure::Interrupted) => {
                 end.interrupted = true;
                 None
             }
@@ -199,12 +199,8 @@ impl TablePlan {
     /// the same as in the tables, as one of another build may be, is warned of.
     ///
     /// # Errors
-    /// [`ExperimentError::Interrupted`], or a run that fails, which it did not when the tables were made.
-    pub fn record(
-        &self,
-        tables: &mut Tables,
-        interrupt: &Interrupt,
-    ) -> Result<(), ExperimentError> {
+    /// [`Failure::Interrupted`], or a run that fails, which it did not when the tables were made.
+    pub fn record(&self, tables: &mut Tables, interrupt: &Interrupt) -> Result<(), Failure> {
         let study = StudyPlan {
             runs: 1,
             ..self.study()

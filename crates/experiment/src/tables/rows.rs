@@ -2,13 +2,14 @@
 
 use std::fmt::Display;
 
+use adslam_names::PlannerName;
+use adslam_scenario::config::PublishedPlanner;
+use adslam_simulation::RunSummary;
+use adslam_statistics::{Statistic, interval_of_share, mean};
+
 use super::agreement::Published;
 use super::cell::{CellValue, ResultCell};
 use super::{Agreement, Comparison, ExperimentTables, PlannerRuns};
-use crate::config::PublishedPlanner;
-use crate::metrics::RunSummary;
-use crate::scenario::PlannerName;
-use crate::statistics::{Statistic, interval_of_share, mean};
 
 /// Up to this many runs are listed one by one, as the paper does.
 const LISTED_RUNS: usize = 10;

@@ -1,6 +1,6 @@
 //! The messages, in the form of Foxglove's schemas. Lengths are metres here.
 
-use adslam_experiment::run::{HistoryMetrics, HistoryStep};
+use adslam_record::{HistoryMetrics, HistoryStep};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use nalgebra::{Isometry3, Vector3};

@@ -9,18 +9,17 @@ use std::io;
 use std::num::NonZeroU64;
 use std::path::Path;
 
-use adslam_experiment::ExperimentError;
-use adslam_experiment::output::AtomicFile;
-use adslam_experiment::run::{HistoryStep, RunHistory};
+use adslam_diagnostics::Failure;
+use adslam_record::{AtomicFile, HistoryStep, RunHistory};
+use geometry::{Xyz, surface_points};
 use mcap::records::MessageHeader;
 use mcap::{Compression, McapError, WriteOptions, Writer};
+use messages::{Stamp, cloud, frame, metrics, path, pose, scene, uncertainty};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+use schemas::Schema;
 use serde::Serialize;
 
 use crate::failed;
-use geometry::{Xyz, surface_points};
-use messages::{Stamp, cloud, frame, metrics, path, pose, scene, uncertainty};
-use schemas::Schema;
 
 /// Messages that are packed together: some steps of a large surface, whose triangles are then written once.
 const CHUNK_BYTES: u64 = 4 << 20;
@@ -67,7 +66,7 @@ impl Period {
 ///
 /// # Errors
 /// A file that cannot be written; what lay at `out` is then unchanged.
-pub fn write_mcap(history: &RunHistory, period: Period, out: &Path) -> Result<(), ExperimentError> {
+pub fn write_mcap(history: &RunHistory, period: Period, out: &Path) -> Result<(), Failure> {
     let said = |error: McapError| {
         failed(out)(match error {
             McapError::Io(cause) => cause,

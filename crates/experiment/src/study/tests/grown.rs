@@ -3,14 +3,15 @@
 use std::fs;
 use std::path::Path;
 
+use adslam_diagnostics::{Failure, InputError};
+use adslam_names::PlannerName;
+use adslam_scenario::Scenario;
+use adslam_setup::Setup;
+
 use super::super::{OtherBuilds, Study, StudyPlan};
 use super::{Said, names, of_points, open, plan, setup, work};
-use crate::ExperimentError;
-use crate::diagnostics::InputError;
 use crate::provenance::{BUILD, Build, remark};
-use crate::run::Setup;
-use crate::scenario::tests::POLYGON;
-use crate::scenario::{PlannerName, Scenario};
+use crate::test_files::POLYGON;
 
 fn with_range(range_cm: &str) -> Setup {
     let text = POLYGON.replacen("range_cm = 3.0", &format!("range_cm = {range_cm}"), 1);
@@ -19,7 +20,7 @@ fn with_range(range_cm: &str) -> Setup {
 
 fn refused(folder: &Path, plan: &StudyPlan<'_>) -> InputError {
     match open(folder, plan) {
-        Err(ExperimentError::Input(error)) => error,
+        Err(Failure::Input(error)) => error,
         other => panic!("{other:?}"),
     }
 }

@@ -8,13 +8,14 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use adslam_diagnostics::{Failure, Interrupt};
+use adslam_names::PlannerName;
+use adslam_scenario::Scenario;
+use adslam_setup::Setup;
 use serde::{Deserialize, Serialize};
 
 use super::{OtherBuilds, Study, StudyEnd, StudyPlan, StudyPoint, StudyUnit};
-use crate::ExperimentError;
-use crate::run::{Interrupt, Setup};
-use crate::scenario::tests::POLYGON;
-use crate::scenario::{PlannerName, Scenario};
+use crate::test_files::POLYGON;
 
 /// What a unit of these studies gives.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,7 +59,7 @@ fn of_points<'a>(setups: &[&'a Setup], runs: usize) -> StudyPlan<'a> {
     }
 }
 
-fn open<'a>(folder: &Path, plan: &StudyPlan<'a>) -> Result<Study<'a, Said>, ExperimentError> {
+fn open<'a>(folder: &Path, plan: &StudyPlan<'a>) -> Result<Study<'a, Said>, Failure> {
     Study::open(folder, plan, OtherBuilds::Refuse)
 }
 
@@ -110,7 +111,7 @@ fn an_interrupted_study_goes_on() {
     };
     let end = study.finish(&interrupt, &progress, |unit, interrupt| {
         if interrupt.requested() {
-            return Err(ExperimentError::Interrupted);
+            return Err(Failure::Interrupted);
         }
         let mut done = done.lock().unwrap();
         done.push(unit.key());
@@ -122,7 +123,7 @@ fn an_interrupted_study_goes_on() {
     assert!(end.as_ref().unwrap().interrupted);
     assert!(matches!(
         end.unwrap().into_result(),
-        Err(ExperimentError::Interrupted)
+        Err(Failure::Interrupted)
     ));
     assert_eq!((study.done(), finished.into_inner()), (10, 10));
     drop(study);
@@ -138,11 +139,11 @@ fn what_fails_is_told_and_tried_again() {
     let end = study.finish(&Interrupt::new(), &|| (), |unit, _| {
         if unit.planner == PlannerName::Local {
             let run = format!("polygon, seed {}", unit.seed);
-            let reason = "the estimate is not finite".to_owned();
-            return Err(ExperimentError::Simulation {
+            let reason = "the estimate is not finite";
+            return Err(Failure::Simulation {
                 run,
                 step: 3,
-                reason,
+                cause: reason.into(),
             });
         }
         // A record that JSON cannot hold is the fault of this unit alone.
@@ -175,10 +176,7 @@ fn a_write_that_fails_ends_the_work_and_loses_nothing() {
         }
         Ok(Said::of(unit))
     });
-    assert!(
-        matches!(end, Err(ExperimentError::Output { .. })),
-        "{end:?}"
-    );
+    assert!(matches!(end, Err(Failure::Output { .. })), "{end:?}");
     let begun = begun.into_inner();
     assert!(begun < 50, "{begun} units were begun");
     let kept = study.done();

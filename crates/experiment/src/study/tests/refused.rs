@@ -4,20 +4,19 @@ use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
+use adslam_diagnostics::{Failure, InputError};
+use adslam_scenario::Scenario;
+use adslam_setup::Setup;
 use tempfile::TempDir;
 
 use super::super::folder::StudyFolder;
 use super::super::{OtherBuilds, StudyPlan};
 use super::{names, open, plan, setup, work};
-use crate::ExperimentError;
-use crate::diagnostics::InputError;
-use crate::run::Setup;
-use crate::scenario::Scenario;
-use crate::scenario::tests::POLYGON;
+use crate::test_files::POLYGON;
 
 fn refused(folder: &Path, plan: &StudyPlan<'_>) -> InputError {
     match open(folder, plan) {
-        Err(ExperimentError::Input(error)) => error,
+        Err(Failure::Input(error)) => error,
         other => panic!("{other:?}"),
     }
 }

@@ -1,17 +1,14 @@
-//! Tests of sweeps: the points of a file, what is said about wrong ones, and the tables of made-up records.
+//! Tests of sweeps: their plans, and the tables of made-up records.
 
-mod points;
+mod plans;
 mod tables;
-mod wrong;
 
 use std::fs;
 use std::path::PathBuf;
 
 use tempfile::TempDir;
 
-use super::Sweep;
-use crate::diagnostics::InputError;
-use crate::scenario::tests::POLYGON;
+use crate::test_files::POLYGON;
 
 const HEAD: &str = "title = \"t\"\nruns = 3\nscenario = \"polygon.toml\"\n\
     planners = [\"local\", \"global\"]\n";
@@ -30,8 +27,4 @@ impl Folder {
     fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
-}
-
-fn loaded(rest: &str) -> Result<Sweep, InputError> {
-    Sweep::load(&Folder::with(rest).path("sweep.toml"))
 }

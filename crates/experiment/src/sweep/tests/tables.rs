@@ -2,11 +2,11 @@
 
 use std::fs;
 
+use adslam_simulation::RunSummary;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use super::Folder;
-use crate::metrics::RunSummary;
 use crate::study::SummaryRecord;
 use crate::sweep::{SweepPlan, SweepResults};
 

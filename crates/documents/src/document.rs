@@ -1,0 +1,213 @@
+//! A TOML file, or a TOML file with overrides from another, that knows where every key stands.
+
+use std::fmt::Display;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use adslam_diagnostics::{InputError, read_text};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue, Deserializer};
+
+use super::explain::{Surroundings, explain, explain_syntax};
+use super::key_path;
+use super::overlay::Overlay;
+use crate::Advice;
+
+/// Files above this size are not ours: the largest that a person writes has a few kilobytes, and the
+/// longest lists that are allowed make a megabyte or two.
+const LARGEST_FILE: u64 = 4 << 20;
+
+/// A text and where it came from.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(super) struct Source {
+    pub(super) path: PathBuf,
+    pub(super) text: Arc<str>,
+}
+
+/// A TOML document, kept as its text: it is parsed again when a place is looked up, which happens
+/// when something is wrong and costs next to nothing.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Document {
+    pub(super) base: Source,
+    pub(super) overlay: Option<Overlay>,
+}
+
+impl Document {
+    /// Takes `text`, which came from `path`.
+    ///
+    /// # Errors
+    /// When it is empty or not TOML.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
+        let base = Source {
+            path: path.to_owned(),
+            text: text.into(),
+        };
+        let document = Self {
+            base,
+            overlay: None,
+        };
+        let tables = document.tables()?;
+        if tables.is_empty() {
+            let message = format!("{} has no keys", path.display());
+            return Err(InputError::about_file(path, message).with_help(
+                "`adslam new` writes scenarios, configurations and sweeps to start from",
+            ));
+        }
+        drop(tables);
+        Ok(document)
+    }
+
+    /// Reads the file at `path`.
+    ///
+    /// # Errors
+    /// When it cannot be read, is no text, is absurdly large, empty, or not TOML.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let remedy = "scenarios and configurations are short TOML texts; is it another file?";
+        Self::parse(&read_text(path, LARGEST_FILE, remedy)?, path)
+    }
+
+    /// The file that the document, overrides apart, came from.
+    pub fn path(&self) -> &Path {
+        &self.base.path
+    }
+
+    /// The text of that file.
+    pub fn text(&self) -> &str {
+        &self.base.text
+    }
+
+    /// The keys of the document's root or, with a path, of the table there, in the order of the file.
+    pub fn keys(&self, path: &str) -> Vec<String> {
+        let Ok(tables) = self.tables() else {
+            return Vec::new();
+        };
+        let table = if path.is_empty() {
+            Some(&tables)
+        } else {
+            table_at(&tables, path)
+        };
+        let entries = table.into_iter().flat_map(in_order);
+        entries.map(|(key, _)| key.get_ref().to_string()).collect()
+    }
+
+    /// The document as JSON.
+    pub fn to_json(&self) -> Value {
+        let json = self.tables().ok().and_then(|tables| {
+            let root = Spanned::new(0..0, tables);
+            Value::deserialize(Deserializer::from(root)).ok()
+        });
+        json.unwrap_or_default()
+    }
+
+    /// Reads the document as a `T`.
+    ///
+    /// # Errors
+    /// When a key is unknown or missing, or a value is not what `T` wants there.
+    pub fn deserialize<T: DeserializeOwned + JsonSchema>(&self) -> Result<T, InputError> {
+        let tables = self.tables()?;
+        let root = Spanned::new(0..0, tables.clone());
+        T::deserialize(Deserializer::from(root)).map_err(|error| {
+            let span = error.span().unwrap_or(0..0);
+            let (path, keys) = key_path::at_span(&tables, &span);
+            let place = Surroundings {
+                path: &path,
+                keys,
+                advice: &Advice::of::<T>(),
+            };
+            explain(&error, &place)
+                .applied_to(self.error_in(span, ""))
+                .with_help_if_none("docs/scenario.md says what belongs here")
+        })
+    }
+
+    /// An error about the value of the key at `path`, such as `object.points.positions_cm[3]`. It
+    /// points at the value or, where that takes several lines, at its key; and where the key is
+    /// not there (its value being a default) at the innermost table that is.
+    pub fn error_at(&self, path: &str, message: impl Display) -> InputError {
+        let steps = key_path::steps(path);
+        let span = self.tables().ok().and_then(|tables| {
+            let place = key_path::find(&tables, &steps)?;
+            let value = place.value.span();
+            let long = self.text_of(&value).is_none_or(|text| text.contains('\n'));
+            Some(place.key.filter(|_| long).unwrap_or(value))
+        });
+        self.error_in(span.unwrap_or(0..0), message)
+    }
+
+    /// Whether a span of the merged tables lies in the overrides.
+    fn in_overlay(&self, span: &Range<usize>) -> bool {
+        span.start > self.base.text.len()
+    }
+
+    /// Whether `error` points at the document itself, not at one of its overrides.
+    pub fn is_in_base(&self, error: &InputError) -> bool {
+        error.path() == self.base.path
+    }
+
+    fn text_of(&self, span: &Range<usize>) -> Option<&str> {
+        match &self.overlay {
+            Some(overlay) if self.in_overlay(span) => {
+                let offset = self.overlay_offset();
+                overlay
+                    .source
+                    .text
+                    .get(span.start - offset..span.end.checked_sub(offset)?)
+            }
+            _ => self.base.text.get(span.clone()),
+        }
+    }
+
+    fn error_in(&self, span: Range<usize>, message: impl Display) -> InputError {
+        match &self.overlay {
+            Some(Overlay { source, .. }) if self.in_overlay(&span) => {
+                let offset = self.overlay_offset();
+                let span = span.start - offset..span.end.saturating_sub(offset);
+                InputError::in_text(&source.path, &source.text, span, message)
+            }
+            _ => InputError::in_text(&self.base.path, &self.base.text, span, message),
+        }
+    }
+
+    /// Where the overlay's text starts: one behind the base's end, which is still the base's.
+    fn overlay_offset(&self) -> usize {
+        self.base.text.len() + 1
+    }
+
+    pub(super) fn tables(&self) -> Result<DeTable<'_>, InputError> {
+        let mut root = parse(&self.base)?;
+        if let Some(overlay) = &self.overlay {
+            overlay.lay_over(&mut root, &self.base, self.overlay_offset())?;
+        }
+        Ok(root)
+    }
+}
+
+/// The entries of a table, in the order of the file.
+pub(super) fn in_order<'a, 'i>(
+    table: &'a DeTable<'i>,
+) -> Vec<(&'a Spanned<DeString<'i>>, &'a Spanned<DeValue<'i>>)> {
+    let mut entries: Vec<_> = table.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    entries
+}
+
+pub(super) fn table_at<'a, 'i>(root: &'a DeTable<'i>, path: &str) -> Option<&'a DeTable<'i>> {
+    let place = key_path::find(root, &key_path::steps(path))?;
+    match place.value.get_ref() {
+        DeValue::Table(table) if place.whole => Some(table),
+        _ => None,
+    }
+}
+
+pub(super) fn parse(source: &Source) -> Result<DeTable<'_>, InputError> {
+    let parsed = DeTable::parse(&source.text).map_err(|error| {
+        let span = error.span().unwrap_or(0..0);
+        explain_syntax(&error).applied_to(InputError::in_text(&source.path, &source.text, span, ""))
+    })?;
+    Ok(parsed.into_inner())
+}

@@ -1,0 +1,24 @@
+//! What goes by a name in files, on the command line and in results, and what is said where nothing has the name that
+//! was given.
+//!
+//! ```
+//! use adslam_names::{Named, PlannerName};
+//!
+//! assert_eq!(PlannerName::named("local"), Ok(PlannerName::Local));
+//! let error = PlannerName::named("combind").unwrap_err();
+//! assert!(error.to_string().contains("did you mean combined?"));
+//! ```
+
+mod estimators;
+mod listed;
+mod named;
+mod near;
+mod planners;
+mod unit;
+
+pub use estimators::EstimatorName;
+pub use listed::numbers;
+pub use named::{Named, UnknownName};
+pub use near::nearest;
+pub use planners::PlannerName;
+pub use unit::LengthUnit;

@@ -1,0 +1,23 @@
+//! What a run leaves: its history, tables, trajectories and logs, in files that are whole or not there at all.
+//!
+//! Recorders are [`Observer`]s of a run: [`HistoryRecorder`] keeps what pictures and replays are made of,
+//! [`StepsFile`] and its kin write tables, [`log::LogRecorder`] writes the log from which [`log::Replay`] makes the run's
+//! estimates again.
+
+mod file;
+mod history;
+pub mod log;
+mod observer;
+mod table;
+mod trajectory;
+
+pub use file::{AtomicFile, FolderLock, checksum, make_folder, not_writable, prepare_folder};
+pub use history::{
+    ActionRuns, Candidate, DrawnSurface, HISTORY_FILE, HISTORY_FORMAT, HISTORY_VERSION,
+    HistoryDecision, HistoryMetrics, HistoryRecorder, HistoryStep, ObjectStep, RunHistory,
+};
+pub use observer::{NoObserver, Observer};
+pub use table::{
+    Column, ColumnKind, FeaturesFile, LastFeatures, PoseCovarianceFile, StepsFile, TableFile,
+};
+pub use trajectory::{TumFile, TumTime};

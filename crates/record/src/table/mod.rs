@@ -1,0 +1,13 @@
+//! Tables: those of a run, and any others.
+
+mod features;
+#[cfg(feature = "parquet")]
+mod parquet_file;
+mod pose_covariance;
+mod steps;
+mod table_file;
+
+pub use features::{FeaturesFile, LastFeatures};
+pub use pose_covariance::PoseCovarianceFile;
+pub use steps::StepsFile;
+pub use table_file::{Column, ColumnKind, TableFile};

@@ -1,0 +1,5 @@
+//! Trajectories in the formats of other tools.
+
+mod tum;
+
+pub use tum::{TumFile, TumTime};

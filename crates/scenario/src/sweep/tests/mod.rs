@@ -1,0 +1,36 @@
+//! Tests of sweep files: their points, and what is said about wrong ones.
+
+mod points;
+mod wrong;
+
+use std::fs;
+use std::path::PathBuf;
+
+use adslam_diagnostics::InputError;
+use tempfile::TempDir;
+
+use super::Sweep;
+use crate::tests::POLYGON;
+
+const HEAD: &str = "title = \"t\"\nruns = 3\nscenario = \"polygon.toml\"\n\
+    planners = [\"local\", \"global\"]\n";
+
+/// A folder with the polygon and one sweep.
+struct Folder(TempDir);
+
+impl Folder {
+    fn with(rest: &str) -> Self {
+        let folder = Self(tempfile::tempdir().expect("a folder"));
+        fs::write(folder.path("polygon.toml"), POLYGON).expect("a file");
+        fs::write(folder.path("sweep.toml"), format!("{HEAD}{rest}\n")).expect("a file");
+        folder
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+}
+
+fn loaded(rest: &str) -> Result<Sweep, InputError> {
+    Sweep::load(&Folder::with(rest).path("sweep.toml"))
+}
