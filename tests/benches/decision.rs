@@ -130,7 +130,7 @@ impl Case {
         let scenario = &self.setup().scenario;
         PlanningNoise {
             feature_measurement_sigma: Some(match planner {
-                PlannerName::Combined => scenario.combined_planning_sigma_cm(),
+                PlannerName::COMBINED => scenario.combined_planning_sigma_cm(),
                 _ => scenario.local_planning_sigma_cm(),
             }),
         }
@@ -154,7 +154,7 @@ impl Candidates {
             let nearest = Nearest::from(case.setup().scenario.planners.combined.nearest());
             safe.keep_nearest(goal, nearest.of(safe.candidates().len()));
         } else {
-            assert_eq!(planner, PlannerName::Local);
+            assert_eq!(planner, PlannerName::LOCAL);
         }
         let model = &case.setup().model.planning;
         let mut sets = VisibleSets::default();
@@ -277,11 +277,11 @@ fn scoring(c: &mut Criterion, name: &str, planner: PlannerName) {
 }
 
 fn local_decision(c: &mut Criterion) {
-    scoring(c, "local_decision", PlannerName::Local);
+    scoring(c, "local_decision", PlannerName::LOCAL);
 }
 
 fn combined_decision(c: &mut Criterion) {
-    scoring(c, "combined_decision", PlannerName::Combined);
+    scoring(c, "combined_decision", PlannerName::COMBINED);
 }
 
 fn whole_decision(c: &mut Criterion) {
@@ -290,9 +290,9 @@ fn whole_decision(c: &mut Criterion) {
     group.sampling_mode(SamplingMode::Flat);
     for case in &*CASES {
         for planner in [
-            PlannerName::Local,
-            PlannerName::Combined,
-            PlannerName::Global,
+            PlannerName::LOCAL,
+            PlannerName::COMBINED,
+            PlannerName::GLOBAL,
         ] {
             group.bench_function(BenchmarkId::new(planner.to_string(), case.name), |b| {
                 let moments = case.moments(planner);
@@ -312,7 +312,7 @@ fn decision_parts(c: &mut Criterion) {
     group.sampling_mode(SamplingMode::Flat);
     for case in &*CASES {
         group.bench_function(BenchmarkId::new("clearance", case.name), |b| {
-            let mut next = in_turn(case.moments(PlannerName::Local));
+            let mut next = in_turn(case.moments(PlannerName::LOCAL));
             let (mut surfaces, mut safe) = (ObjectSurfaces::default(), SafeActions::default());
             b.iter(|| {
                 let situation = case.situation(next());
@@ -323,10 +323,10 @@ fn decision_parts(c: &mut Criterion) {
         });
 
         group.bench_function(BenchmarkId::new("visibility", case.name), |b| {
-            let moments = case.moments(PlannerName::Local);
+            let moments = case.moments(PlannerName::LOCAL);
             let candidates: Vec<(&Moment, Candidates)> = moments
                 .iter()
-                .map(|moment| (moment, Candidates::of(case, PlannerName::Local, moment)))
+                .map(|moment| (moment, Candidates::of(case, PlannerName::LOCAL, moment)))
                 .collect();
             let mut next = in_turn(&candidates);
             let model = &case.setup().model.planning;

@@ -35,7 +35,7 @@ fn every_estimator_is_consistent_in_every_measure() {
     let setup = setup("polygon.toml", &[ACCUMULATING]);
     for &name in EstimatorName::ALL {
         let setup = setup.with_estimator(name);
-        let runs = records(&setup, PlannerName::Local, 20);
+        let runs = records(&setup, PlannerName::LOCAL, 20);
         for measure in Measure::ALL {
             let judgement = judged(measure, &runs);
             let Judgement { verdict, mean, .. } = judgement;
@@ -53,8 +53,8 @@ fn the_right_invariant_filter_is_consistent_on_both_environments() {
         Measure::StructureNis,
     ];
     for (name, planner, seeds) in [
-        ("polygon.toml", PlannerName::Combined, 30),
-        ("heart.toml", PlannerName::Global, 8),
+        ("polygon.toml", PlannerName::COMBINED, 30),
+        ("heart.toml", PlannerName::GLOBAL, 8),
     ] {
         let setup = setup(name, &[ACCUMULATING]);
         let setup = setup.with_estimator(EstimatorName::RightInvariantEkf);
@@ -72,7 +72,7 @@ fn a_wrong_sigma_is_found_out() {
     for (factor, verdict) in [("2.0", Verdict::OverConfident), ("0.5", Verdict::Cautious)] {
         let mismatch = format!("[mismatch]\nfeature_noise_factor = {factor}\n\n[sensor]");
         let setup = setup("polygon.toml", &[ACCUMULATING, ("[sensor]", &mismatch)]);
-        let runs = records(&setup, PlannerName::Local, 10);
+        let runs = records(&setup, PlannerName::LOCAL, 10);
         let judgement = judged(Measure::FeatureNis, &runs);
         assert_eq!(judgement.verdict, verdict, "{factor}: {}", judgement.mean);
     }
@@ -87,7 +87,7 @@ fn the_gate_keeps_outliers_out() {
     let gated = setup("polygon.toml", &[ACCUMULATING, ("[sensor]", &gate)]);
     let clean = setup("polygon.toml", &[ACCUMULATING]);
     let [open, gated, clean] =
-        [&open, &gated, &clean].map(|setup| summaries(setup, PlannerName::Local, 12));
+        [&open, &gated, &clean].map(|setup| summaries(setup, PlannerName::LOCAL, 12));
     let error = |runs: &[_]| mean(runs, |run| run.relative_pose_error_mean);
     assert!(
         error(&gated) < 0.7 * error(&open),

@@ -97,7 +97,7 @@ fn the_same_actions_are_chosen_on_whole_runs() {
             belief: None,
             decisions: 0,
         };
-        simulate(&setup, PlannerName::Local, 2, &Interrupt::new(), &mut plain).unwrap();
+        simulate(&setup, PlannerName::LOCAL, 2, &Interrupt::new(), &mut plain).unwrap();
         assert_eq!(plain.decisions, setup.model.steps - 1);
     }
 }

@@ -45,7 +45,7 @@ fn no_mismatch_changes_nothing() {
         "deformation_factor = 1\ntime_factor = 1\ndelay_steps = 0\nrobot_noise_factor = 1\n\
          outlier_probability = 0\noutlier_sigma_cm = 1\nmissed_detection_probability = 0",
     );
-    for planner in [PlannerName::Combined, PlannerName::Local] {
+    for planner in [PlannerName::COMBINED, PlannerName::LOCAL] {
         let runs = without_times(summaries(&plain, planner, 2));
         assert_eq!(runs, without_times(summaries(&spelt_out, planner, 2)));
         assert!(runs.iter().all(|run| run.faults.is_none()));
@@ -80,7 +80,7 @@ fn the_numbers_without_mismatch_are_those_of_before() {
         ),
     ] {
         let setup = setup(&format!("{name}.toml"), &[]);
-        let runs = summaries(&setup, PlannerName::Predetermined, 3);
+        let runs = summaries(&setup, PlannerName::PREDETERMINED, 3);
         let run = &runs[2];
         assert_eq!(run.observed, observed, "{name}");
         for (found, before) in [
@@ -100,7 +100,7 @@ fn the_numbers_without_mismatch_are_those_of_before() {
 /// The filter cannot know what it is not told, so its errors grow beyond what it claims.
 #[test]
 fn what_the_filter_is_not_told_raises_its_nees() {
-    let sound = pose_nees(&summaries(&departed(""), PlannerName::Global, SEEDS));
+    let sound = pose_nees(&summaries(&departed(""), PlannerName::GLOBAL, SEEDS));
     assert!(sound < 8.0, "{sound}");
     for (keys, times) in [
         (
@@ -116,7 +116,7 @@ fn what_the_filter_is_not_told_raises_its_nees() {
         ("structure_noise_factor = 6", 4.0),
         ("outlier_probability = 0.1\noutlier_sigma_cm = 1", 8.0),
     ] {
-        let nees = pose_nees(&summaries(&departed(keys), PlannerName::Global, SEEDS));
+        let nees = pose_nees(&summaries(&departed(keys), PlannerName::GLOBAL, SEEDS));
         assert!(nees > times * sound, "{keys}: {nees}, without {sound}");
     }
 }
@@ -124,9 +124,9 @@ fn what_the_filter_is_not_told_raises_its_nees() {
 /// Missing measurements are no lie: the filter knows that it has none, and stays consistent.
 #[test]
 fn what_does_not_arrive_costs_accuracy_but_not_consistency() {
-    let plain = summaries(&departed(""), PlannerName::Global, SEEDS);
+    let plain = summaries(&departed(""), PlannerName::GLOBAL, SEEDS);
     let keys = "missed_detection_probability = 0.5\ndropped_structure_probability = 0.5";
-    let poor = summaries(&departed(keys), PlannerName::Global, SEEDS);
+    let poor = summaries(&departed(keys), PlannerName::GLOBAL, SEEDS);
     let observed = |runs: &[RunSummary]| mean(runs, |run| run.observed as f64);
     let part = observed(&poor) / observed(&plain);
     assert!((0.35..0.65).contains(&part), "{part}");
@@ -169,8 +169,8 @@ fn planners_meet_the_same_faults_at_the_same_seed() {
         let outcome = simulate(&setup, planner, 4, &Interrupt::new(), &mut observer).unwrap();
         (observer.of, outcome.summary.faults.unwrap())
     };
-    let (local, of_local) = of(PlannerName::Local);
-    let (combined, of_combined) = of(PlannerName::Combined);
+    let (local, of_local) = of(PlannerName::LOCAL);
+    let (combined, of_combined) = of(PlannerName::COMBINED);
     let shared: Vec<_> = local
         .keys()
         .filter(|key| combined.contains_key(key))

@@ -137,7 +137,7 @@ fn pose_nees_of_every_step_and_estimator() {
             ],
         );
         let folder = tempfile::tempdir().unwrap();
-        let planner = PlannerName::Local;
+        let planner = PlannerName::LOCAL;
         let mut recorder =
             RunRecorder::create(folder.path(), &setup, planner, 3, LengthUnit::M).unwrap();
         let outcome = simulate(&setup, planner, 3, &Interrupt::new(), &mut recorder).unwrap();

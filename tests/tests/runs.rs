@@ -54,15 +54,15 @@ fn the_combined_planner_contains_the_global_and_the_local_one() {
     ] {
         let name = one.name();
         for seed in 1..=2 {
-            let global = controls(&one, PlannerName::Global, seed);
+            let global = controls(&one, PlannerName::GLOBAL, seed);
             assert_eq!(
-                controls(&one, PlannerName::Combined, seed),
+                controls(&one, PlannerName::COMBINED, seed),
                 global,
                 "{name}, {seed}"
             );
-            let local = controls(&all, PlannerName::Local, seed);
+            let local = controls(&all, PlannerName::LOCAL, seed);
             assert_eq!(
-                controls(&all, PlannerName::Combined, seed),
+                controls(&all, PlannerName::COMBINED, seed),
                 local,
                 "{name}, {seed}"
             );
@@ -87,7 +87,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
             .build()
             .unwrap();
         pool.install(|| {
-            PlannerName::ALL.map(|planner| without_times(summaries(&setup, planner, 6)))
+            PlannerName::PAPER.map(|planner| without_times(summaries(&setup, planner, 6)))
         })
     };
     let alone = with_threads(1);
@@ -112,11 +112,11 @@ fn planners_meet_the_same_world_at_the_same_seed() {
         simulate(&setup, planner, 5, &Interrupt::new(), &mut observer).unwrap();
         observer.0
     };
-    let first = features(PlannerName::Predetermined);
+    let first = features(PlannerName::PREDETERMINED);
     for planner in [
-        PlannerName::Local,
-        PlannerName::Global,
-        PlannerName::Combined,
+        PlannerName::LOCAL,
+        PlannerName::GLOBAL,
+        PlannerName::COMBINED,
     ] {
         assert_eq!(features(planner), first);
     }
@@ -127,7 +127,7 @@ fn planners_meet_the_same_world_at_the_same_seed() {
 #[test]
 fn a_world_with_both_rotations_turning_is_filtered_consistently() {
     let setup = setup("rotating.toml", &[]);
-    let runs = summaries(&setup, PlannerName::Combined, 30);
+    let runs = summaries(&setup, PlannerName::COMBINED, 30);
     let nees = mean(&runs, |run| run.pose_nees_mean.unwrap());
     // 6 is consistent. The errors of neighbouring steps are correlated, so the mean over a run
     // spreads by about 1.6, that over 30 runs by 0.3; linearisation costs some more.
@@ -141,7 +141,7 @@ fn an_interrupted_run_says_so() {
     let setup = setup("polygon.toml", &[]);
     let interrupt = Interrupt::new();
     interrupt.request();
-    let error = simulate(&setup, PlannerName::Global, 1, &interrupt, &mut NoObserver).unwrap_err();
+    let error = simulate(&setup, PlannerName::GLOBAL, 1, &interrupt, &mut NoObserver).unwrap_err();
     assert!(matches!(error, Failure::Interrupted));
 }
 
@@ -175,7 +175,7 @@ fn a_deadline_leaves_the_best_action_so_far() {
     let mut observer = Scored::default();
     simulate(
         &setup,
-        PlannerName::Local,
+        PlannerName::LOCAL,
         1,
         &Interrupt::new(),
         &mut observer,

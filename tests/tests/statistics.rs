@@ -17,7 +17,7 @@ const SEEDS: u64 = 50;
 fn the_polygon_over_50_seeds() {
     let setup = setup("polygon.toml", &[]);
     let [predetermined, local, global, combined] =
-        PlannerName::ALL.map(|planner| summaries(&setup, planner, SEEDS));
+        PlannerName::PAPER.map(|planner| summaries(&setup, planner, SEEDS));
 
     for (name, runs, low, high) in [
         ("global", &global, 270.0, 330.0),

@@ -9,6 +9,7 @@ use std::process::ExitCode;
 
 use adslam_cli::{FAILURE, schema_text};
 use adslam_scenario::FileKind;
+use adslam_scenario::registry::Registry;
 use adslam_scenario::schema::json_schema;
 use serde_json::Value;
 
@@ -36,14 +37,17 @@ pub fn renew(workspace: &Path) -> ExitCode {
 
 /// The files whose content is not what the code makes, with what it makes.
 fn stale(workspace: &Path) -> Result<Vec<(PathBuf, String)>, String> {
-    let schemas: Vec<Value> = FileKind::ALL.map(json_schema).into();
+    let registry = Registry::standard();
+    let schemas: Vec<Value> = FileKind::ALL
+        .map(|kind| json_schema(kind, &registry))
+        .into();
     let mut files = vec![(
         workspace.join("docs/scenario.md"),
         reference::render(TEMPLATE, &schemas)?,
     )];
     for kind in FileKind::ALL {
         let name = format!("schemas/{}.schema.json", kind.short_name());
-        files.push((workspace.join(name), schema_text(kind)));
+        files.push((workspace.join(name), schema_text(kind, &registry)));
     }
     files.retain(|(path, content)| fs::read_to_string(path).ok().as_ref() != Some(content));
     Ok(files)

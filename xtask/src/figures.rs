@@ -11,6 +11,7 @@ use adslam_figures::{
     Figure, FigureError, boxes, comparison, coverage, environments, estimates, nees, pose_error,
 };
 use adslam_record::{HistoryRecorder, RunHistory, prepare_folder};
+use adslam_report::runs_of_methods;
 use adslam_scenario::config::{Config, Selection};
 use adslam_scenario::{Object, Scenario};
 use adslam_setup::Setup;
@@ -129,7 +130,9 @@ impl FiguresArgs {
         eprintln!("running {} more for the box plots", plan.total_runs());
         let tables = plan.run(interrupt, &|| ());
         for experiment in &tables.experiments {
-            self.write(&boxes(&format!("boxes-{}", experiment.label), experiment)?)?;
+            let name = format!("boxes-{}", experiment.label);
+            let runs = runs_of_methods(experiment);
+            self.write(&boxes(&name, &experiment.label, &runs)?)?;
         }
         Ok(tables.into_result()?)
     }

@@ -5,7 +5,8 @@ mod many;
 mod single;
 
 use adslam_diagnostics::{Failure, Interrupt};
-use clap::{Parser, Subcommand};
+use adslam_scenario::registry::Registry;
+use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 pub use files::{CheckArgs, MeshArgs, NewArgs, NewFile, SchemaKind};
@@ -13,6 +14,7 @@ pub use many::{ConsistencyArgs, SelectionArgs, SweepArgs, TablesArgs};
 pub use single::{ExportArgs, ExportFormat, FilterArgs, ReplayArgs, RunArgs};
 
 use crate::commands;
+use crate::named::PlannerParser;
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -147,6 +149,17 @@ pub enum Command {
     },
 }
 
+impl Arguments {
+    /// The command line of a program with these planners.
+    #[must_use]
+    pub fn command_with(registry: &Registry) -> clap::Command {
+        let parser = PlannerParser::new(registry.clone());
+        let with_planners =
+            |run: clap::Command| run.mut_arg("planner", |planner| planner.value_parser(parser));
+        Self::command().mut_subcommand("run", with_planners)
+    }
+}
+
 impl Command {
     /// Whether it looks at its interrupt as it goes on. The others are short, and end at once by what the system does
     /// with a signal.
@@ -162,24 +175,24 @@ impl Command {
         )
     }
 
-    /// Does it.
+    /// Does it, with the planners of a registry.
     ///
     /// # Errors
     /// Bad input, a failure, or an interruption; see [`crate::exit_code`].
-    pub fn execute(&self, interrupt: &Interrupt) -> Result<(), Failure> {
+    pub fn execute(&self, registry: &Registry, interrupt: &Interrupt) -> Result<(), Failure> {
         match self {
-            Self::Run(args) => commands::run(args, interrupt),
+            Self::Run(args) => commands::run(args, registry, interrupt),
             Self::Replay(args) => commands::replay(args),
             Self::Export(args) => commands::export(args),
             Self::Filter(args) => commands::filter(args, interrupt),
-            Self::Tables(args) => commands::tables(args, interrupt),
-            Self::Sweep(args) => commands::sweep(args, interrupt),
-            Self::Consistency(args) => commands::consistency(args, interrupt),
+            Self::Tables(args) => commands::tables(args, registry, interrupt),
+            Self::Sweep(args) => commands::sweep(args, registry, interrupt),
+            Self::Consistency(args) => commands::consistency(args, registry, interrupt),
             Self::Mesh(args) => commands::mesh(args),
-            Self::Check(args) => commands::check(args),
-            Self::New(file) => commands::new(file),
-            Self::Schema { kind } => commands::schema(*kind),
-            Self::Completions { shell } => commands::completions(*shell),
+            Self::Check(args) => commands::check(args, registry),
+            Self::New(file) => commands::new(file, registry),
+            Self::Schema { kind } => commands::schema(*kind, registry),
+            Self::Completions { shell } => commands::completions(*shell, registry),
         }
     }
 }

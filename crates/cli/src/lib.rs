@@ -6,6 +6,7 @@ mod commands;
 mod estimates;
 mod exit;
 mod interrupt;
+mod main_with;
 mod named;
 mod paths;
 mod print;
@@ -20,3 +21,4 @@ pub use commands::{
 };
 pub use exit::{BAD_INPUT, FAILURE, INTERRUPTED, exit_code};
 pub use interrupt::stop_on_signals;
+pub use main_with::main_with;

@@ -2,17 +2,8 @@
 
 use std::process::ExitCode;
 
-use adslam_cli::Arguments;
-use adslam_diagnostics::Interrupt;
-use clap::Parser;
+use adslam_scenario::registry::Registry;
 
 fn main() -> ExitCode {
-    let command = Arguments::parse().command;
-    let never = Interrupt::new();
-    let interrupt = if command.heeds_interrupts() {
-        adslam_cli::stop_on_signals()
-    } else {
-        &never
-    };
-    adslam_cli::exit_code(command.execute(interrupt))
+    adslam_cli::main_with(&Registry::standard())
 }

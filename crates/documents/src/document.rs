@@ -109,20 +109,66 @@ impl Document {
     /// # Errors
     /// When a key is unknown or missing, or a value is not what `T` wants there.
     pub fn deserialize<T: DeserializeOwned + JsonSchema>(&self) -> Result<T, InputError> {
+        self.deserialize_without(&[])
+    }
+
+    /// Reads all but the tables at the paths `left_out` as a `T`.
+    ///
+    /// # Errors
+    /// As [`Document::deserialize`].
+    pub fn deserialize_without<T: DeserializeOwned + JsonSchema>(
+        &self,
+        left_out: &[String],
+    ) -> Result<T, InputError> {
         let tables = self.tables()?;
-        let root = Spanned::new(0..0, tables.clone());
-        T::deserialize(Deserializer::from(root)).map_err(|error| {
-            let span = error.span().unwrap_or(0..0);
-            let (path, keys) = key_path::at_span(&tables, &span);
-            let place = Surroundings {
-                path: &path,
-                keys,
-                advice: &Advice::of::<T>(),
-            };
-            explain(&error, &place)
-                .applied_to(self.error_in(span, ""))
-                .with_help_if_none("docs/scenario.md says what belongs here")
-        })
+        let mut rest = tables.clone();
+        for path in left_out {
+            remove(&mut rest, &key_path::steps(path));
+        }
+        T::deserialize(Deserializer::from(Spanned::new(0..0, rest)))
+            .map_err(|error| self.explained::<T>(&error, &tables, ""))
+    }
+
+    /// Reads the table at `path` as a `T`; none where there is no such table.
+    ///
+    /// # Errors
+    /// As [`Document::deserialize`], and where something else than a table is there.
+    pub fn deserialize_at<T: DeserializeOwned + JsonSchema>(
+        &self,
+        path: &str,
+    ) -> Result<Option<T>, InputError> {
+        let tables = self.tables()?;
+        let place = key_path::find(&tables, &key_path::steps(path)).filter(|place| place.whole);
+        let Some(place) = place else {
+            return Ok(None);
+        };
+        let Some(table) = place.value.get_ref().as_table() else {
+            let error = self.error_at(path, format!("`{path}` is a table, not a value"));
+            return Err(error.with_help(format!("write a table [{path}]")));
+        };
+        let root = Spanned::new(place.value.span(), table.clone());
+        T::deserialize(Deserializer::from(root))
+            .map(Some)
+            .map_err(|error| self.explained::<T>(&error, &tables, path))
+    }
+
+    /// An error of serde in the table at `root`, which was to be a `T`.
+    fn explained<T: JsonSchema>(
+        &self,
+        error: &toml::de::Error,
+        tables: &DeTable<'_>,
+        root: &str,
+    ) -> InputError {
+        let span = error.span().unwrap_or(0..0);
+        let (path, keys) = key_path::at_span(tables, &span);
+        let place = Surroundings {
+            path: path.strip_prefix(root).unwrap_or(&path).trim_start_matches('.'),
+            keys,
+            advice: &Advice::of::<T>(),
+        };
+        explain(error, &place)
+            .applied_to(self.error_in(span, ""))
+            .with_help_if_none("docs/scenario.md says what belongs here")
     }
 
     /// An error about the value of the key at `path`, such as `object.points.positions_cm[3]`. It
@@ -184,6 +230,20 @@ impl Document {
             overlay.lay_over(&mut root, &self.base, self.overlay_offset())?;
         }
         Ok(root)
+    }
+}
+
+/// Takes the value at a path out of the table.
+fn remove(table: &mut DeTable<'_>, path: &[key_path::Step]) {
+    match path {
+        [key_path::Step::Key(key)] => drop(table.remove(key.as_str())),
+        [key_path::Step::Key(key), rest @ ..] => {
+            let child = table.get_mut(key.as_str()).map(Spanned::get_mut);
+            if let Some(DeValue::Table(child)) = child {
+                remove(child, rest);
+            }
+        }
+        _ => {}
     }
 }
 

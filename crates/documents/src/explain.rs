@@ -48,12 +48,8 @@ pub(super) fn explain(error: &toml::de::Error, place: &Surroundings<'_>) -> Expl
     if text.starts_with("unknown variant")
         && let Some((unknown, known)) = quoted.split_first()
     {
-        let message = format!("`{unknown}` is not one of the choices");
-        return explanation(
-            message,
-            "no such choice",
-            place.suggestion(unknown, known, "choices"),
-        );
+        let help = place.suggestion(unknown, known, "choices");
+        return explanation(not_a_choice(unknown), NO_SUCH_CHOICE, help);
     }
     if text.starts_with("missing field")
         && let Some(missing) = quoted.first()
@@ -95,6 +91,21 @@ pub(super) fn explain(error: &toml::de::Error, place: &Surroundings<'_>) -> Expl
             help: None,
         },
     }
+}
+
+const NO_SUCH_CHOICE: &str = "no such choice";
+
+fn not_a_choice(unknown: &str) -> String {
+    format!("`{unknown}` is not one of the choices")
+}
+
+/// `error`, which points at the word `unknown`, with the words for what is none of the choices that are `known`.
+#[must_use]
+pub fn unknown_choice(error: InputError, unknown: &str, known: &[&str]) -> InputError {
+    error
+        .with_message(not_a_choice(unknown))
+        .with_label(NO_SUCH_CHOICE)
+        .with_help(suggestion(unknown, known, "choices"))
 }
 
 /// Puts an error of what is not even TOML in better words.

@@ -12,6 +12,7 @@ mod overrides;
 mod schema;
 
 pub use document::Document;
+pub use explain::unknown_choice;
 pub use key_path::json_at;
 pub use overlay::{LONGEST_LIST, Layer};
 pub use schema::{Advice, paths, root_schema};

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use adslam_diagnostics::InputError;
 use adslam_scenario::config::{Config, Published};
+use adslam_scenario::registry::Registry;
 use adslam_scenario::sweep::Sweep;
 use adslam_scenario::{FileKind, Scenario};
 use adslam_setup::Setup;
@@ -21,25 +22,25 @@ pub struct CheckedFile {
 
 /// Reads the file at `path`, finds out by its keys what kind it is, and checks it and all that it
 /// names, as far as can be done without a run: the worlds of scenarios, of a configuration's
-/// experiments and of a sweep's points are built, meshes read.
+/// experiments and of a sweep's points are built, meshes read. `registry` says which planners there are.
 ///
 /// # Errors
 /// The first thing that is wrong with it, or that it is of no kind.
-pub fn check_file(path: &Path) -> Result<CheckedFile, InputError> {
+pub fn check_file(path: &Path, registry: &Registry) -> Result<CheckedFile, InputError> {
     let kind = FileKind::of_file(path)?;
     let mut warnings = Vec::new();
     match kind {
         FileKind::Configuration => {
-            for plan in &Config::load(path)?.experiments {
+            for plan in &Config::load_with(path, registry)?.experiments {
                 warnings.extend(Setup::new(&plan.scenario)?.warnings);
             }
         }
-        FileKind::Published => drop(Published::load(path)?),
+        FileKind::Published => drop(Published::load_with(path, registry)?),
         FileKind::Scenario => {
-            warnings = Setup::new(&Scenario::load(path)?)?.warnings;
+            warnings = Setup::new(&Scenario::load_with(path, registry)?)?.warnings;
         }
         FileKind::Sweep => {
-            warnings = SweepPlan::new(Sweep::load(path)?, None)?.warnings();
+            warnings = SweepPlan::new(Sweep::load_with(path, registry)?, None)?.warnings();
         }
     }
     Ok(CheckedFile { kind, warnings })

@@ -112,7 +112,7 @@ fn features_that_no_memory_holds() {
 fn steps_that_are_yet_to_be_done() {
     let longest = scenario("steps = 100", "steps = 1000000").unwrap();
     let setup = Setup::new(&longest).unwrap();
-    let memory = measure(|| drop(HistoryRecorder::new(&setup.model, PlannerName::Global, 1)));
+    let memory = measure(|| drop(HistoryRecorder::new(&setup.model, PlannerName::GLOBAL, 1)));
     assert!(memory.bytes_max < MIB, "{memory:?}");
 }
 

@@ -82,7 +82,7 @@ impl Observer for Compare {
 fn every_planner_is_recorded_as_it_ran_and_read_back() {
     let folder = tempfile::tempdir().unwrap();
     let setup = setup("polygon", 6);
-    for planner in PlannerName::ALL {
+    for planner in PlannerName::PAPER {
         let mut compare = Compare(HistoryRecorder::new(&setup.model, planner, 3));
         let outcome = simulate(&setup, planner, 3, &Interrupt::new(), &mut compare).unwrap();
         let history = compare.0.into_history();
@@ -117,7 +117,7 @@ fn the_drawn_mesh_moves_as_the_scenario_says() {
             let drawn = Arc::make_mut(&mut setup.model.drawn);
             drawn.vertices.push(Point3::new(0.3, -0.4, 0.5));
         }
-        let history = record(&setup, PlannerName::Predetermined);
+        let history = record(&setup, PlannerName::PREDETERMINED);
         let motion = &setup.model.world.motion;
         let mut base = Vector3::zeros();
         for n in 1..=9 {
@@ -140,7 +140,7 @@ fn the_drawn_mesh_moves_as_the_scenario_says() {
 
 #[test]
 fn files_that_cannot_be_used_say_why() {
-    let good = serde_json::to_value(record(&setup("polygon", 3), PlannerName::Global)).unwrap();
+    let good = serde_json::to_value(record(&setup("polygon", 3), PlannerName::GLOBAL)).unwrap();
     let path = Path::new("run/history.json");
     let reason = |text: &str| {
         let error = RunHistory::parse(path, text).unwrap_err();

@@ -122,7 +122,7 @@ fn every_estimator_in_both_environments() {
             for kind in ["fresh", "accumulating"] {
                 let noise = format!("[noise]\ndeformation_noise = \"{kind}\"");
                 let scenario = scenario(name, estimator, ["[noise]", &noise], "");
-                the_same_bits(&scenario, PlannerName::Predetermined);
+                the_same_bits(&scenario, PlannerName::PREDETERMINED);
             }
         }
     }
@@ -134,7 +134,7 @@ fn with_a_gate_and_faults() {
     let mut rejected = 0;
     for &estimator in EstimatorName::ALL {
         let scenario = scenario("polygon.toml", estimator, ["", ""], &more);
-        let (run, log) = the_same_bits(&scenario, PlannerName::Predetermined);
+        let (run, log) = the_same_bits(&scenario, PlannerName::PREDETERMINED);
         rejected += run.rejected_measurements;
         let with = log.matches("structure_sums").count();
         assert!(
@@ -150,7 +150,7 @@ fn with_a_gate_and_faults() {
 fn without_structure() {
     let more = "structure = \"none\"\n";
     let scenario = scenario("polygon.toml", EstimatorName::EulerEkf, ["", ""], more);
-    let (_, log) = the_same_bits(&scenario, PlannerName::Local);
+    let (_, log) = the_same_bits(&scenario, PlannerName::LOCAL);
     assert!(!log.contains("structure_sums"));
 }
 
@@ -159,7 +159,7 @@ fn without_structure() {
 fn another_filter_than_the_log_says() {
     let more = "gate_probability = 0.01\n";
     let scenario = scenario("polygon.toml", EstimatorName::So3Ekf, ["", ""], more);
-    let (_, log) = the_same_bits(&scenario, PlannerName::Local);
+    let (_, log) = the_same_bits(&scenario, PlannerName::LOCAL);
     let filtered = |choice| {
         let mut lines = Vec::new();
         let summary = filter_log(
@@ -193,7 +193,7 @@ fn another_filter_than_the_log_says() {
 #[test]
 fn the_header_says_where_it_comes_from() {
     let scenario = scenario("polygon.toml", EstimatorName::So3Ekf, ["", ""], "");
-    let (_, log) = the_same_bits(&scenario, PlannerName::Global);
+    let (_, log) = the_same_bits(&scenario, PlannerName::GLOBAL);
     let reader = LogReader::new(log.as_bytes(), Path::new("log")).unwrap();
     let source = reader.header().source.clone().unwrap();
     assert!(source.contains("global planner, seed 3"), "{source}");

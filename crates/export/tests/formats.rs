@@ -26,8 +26,8 @@ fn history() -> RunHistory {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/heart.toml");
     let mut setup = Setup::new(&Scenario::load(&path).unwrap()).unwrap();
     setup.model.steps = STEPS;
-    let mut recorder = HistoryRecorder::new(&setup.model, PlannerName::Predetermined, 1);
-    let planner = PlannerName::Predetermined;
+    let mut recorder = HistoryRecorder::new(&setup.model, PlannerName::PREDETERMINED, 1);
+    let planner = PlannerName::PREDETERMINED;
     simulate(&setup, planner, 1, &Interrupt::new(), &mut recorder).unwrap();
     recorder.into_history()
 }

@@ -1,6 +1,5 @@
 //! Box plots over many runs of every number that the tables show.
 
-use adslam_experiment::tables::{ExperimentTables, PlannerRuns};
 use adslam_simulation::RunSummary;
 use plotters::coord::ranged1d::Ranged;
 
@@ -8,9 +7,19 @@ use crate::axis::Axis;
 use crate::chart::{Chart, Margins};
 use crate::error::{DrawingError, FigureError};
 use crate::figure::{Area, Figure, Frame};
+use crate::method::Method;
 use crate::shape::{Look, Shape};
 use crate::statistics::Quartiles;
-use crate::style::{Colour, FLOOR, FULL_WIDTH, INK, Stroke, method_colour, method_short_name};
+use crate::style::{Colour, FLOOR, FULL_WIDTH, INK, Stroke};
+
+/// The runs of one planner.
+#[derive(Clone, Debug)]
+pub struct RunsOfMethod<'a> {
+    /// Which planner.
+    pub method: Method,
+    /// Its runs.
+    pub runs: &'a [RunSummary],
+}
 
 /// A row of the tables.
 struct Column {
@@ -103,7 +112,7 @@ const ROWS: usize = COLUMNS.len() / 3;
 /// The height of a row, px.
 const HEIGHT: f64 = 148.0;
 
-/// A panel for each row of an experiment's tables, a box for each planner: the quartiles, the
+/// A panel for each row of the tables of the experiment `label`, a box for each planner: the quartiles, the
 /// farthest values within 1.5 times their distance, and every run as a dot. A dotted line is the drift
 /// floor. Runs without a value,
 /// such as those that never see all features, are left out, and how many are
@@ -111,14 +120,17 @@ const HEIGHT: f64 = 148.0;
 ///
 /// # Errors
 /// [`FigureError::Layout`].
-pub fn boxes(name: &str, experiment: &ExperimentTables) -> Result<Figure, FigureError> {
-    let runs = experiment.planners.iter().map(|p| p.runs.len()).max();
+pub fn boxes(
+    name: &str,
+    label: &str,
+    planners: &[RunsOfMethod<'_>],
+) -> Result<Figure, FigureError> {
+    let runs = planners.iter().map(|p| p.runs.len()).max();
     let frame = Frame {
         name,
         title: &format!(
-            "Every number of the tables over {} runs, {} environment",
+            "Every number of the tables over {} runs, {label} environment",
             runs.unwrap_or(0),
-            experiment.label
         ),
         width: FULL_WIDTH,
         height: HEIGHT * ROWS as f64 + 4.0,
@@ -126,7 +138,7 @@ pub fn boxes(name: &str, experiment: &ExperimentTables) -> Result<Figure, Figure
     frame.draw(|area| {
         let panels = area.split_evenly((ROWS, COLUMNS.len() / ROWS));
         for ((panel, column), letter) in panels.iter().zip(&COLUMNS).zip('a'..) {
-            column.draw(panel, letter, &experiment.planners)?;
+            column.draw(panel, letter, planners)?;
         }
         Ok(())
     })
@@ -142,7 +154,7 @@ impl Column {
         &self,
         area: &Area<'_>,
         letter: char,
-        planners: &[PlannerRuns],
+        planners: &[RunsOfMethod<'_>],
     ) -> Result<(), DrawingError> {
         let values: Vec<Vec<f64>> = planners
             .iter()
@@ -150,10 +162,10 @@ impl Column {
             .collect();
         let names: Vec<String> = planners
             .iter()
-            .map(|p| method_short_name(p.planner).to_owned())
+            .map(|p| p.method.short_label())
             .collect();
         let floor = self.floor.and_then(|floor| {
-            let runs = planners.iter().flat_map(|p| &p.runs);
+            let runs = planners.iter().flat_map(|p| p.runs);
             runs.map(floor).find(|floor| *floor > 0.0)
         });
         let all = values.iter().flatten().copied().chain(floor);
@@ -187,7 +199,7 @@ impl Column {
             .zip(0u32..)
             .flat_map(|((p, v), k)| {
                 let middle = f64::from(k) + 0.5;
-                shapes(v, middle, method_colour(p.planner))
+                shapes(v, middle, p.method.colour())
             });
         let end = planners.len() as f64;
         let floor = floor.map(|y| Shape::line(vec![(0.0, y), (end, y)], FLOOR));
@@ -196,7 +208,7 @@ impl Column {
 }
 
 /// Where planners stand that have runs without a value, and how many of their runs have one.
-fn incomplete(planners: &[PlannerRuns], values: &[Vec<f64>]) -> Vec<(f64, String)> {
+fn incomplete(planners: &[RunsOfMethod<'_>], values: &[Vec<f64>]) -> Vec<(f64, String)> {
     let places = (0u32..).map(|k| f64::from(k) + 0.5);
     places
         .zip(planners.iter().zip(values))

@@ -1,18 +1,16 @@
 //! Consistency over many runs: the mean of a squared error or innovation against the interval of χ².
 
-use adslam_experiment::consistency::{
-    CHI_SQUARED_CONFIDENCE, ConsistencyCell, ConsistencyResults, Judgement, Measure,
-};
-use adslam_names::{EstimatorName, PlannerName};
+use adslam_names::EstimatorName;
 
 use crate::axis::Axis;
 use crate::chart::Chart;
 use crate::error::FigureError;
 use crate::figure::{Figure, Frame};
 use crate::legend::Entry;
+use crate::method::Method;
 use crate::methods::below_legend;
 use crate::shape::{Look, Shape};
-use crate::style::{AXIS, BAND, Colour, FULL_WIDTH, Stroke, method_name};
+use crate::style::{AXIS, BAND, Colour, FULL_WIDTH, Stroke};
 
 /// The line of an estimator: colours of Okabe and Ito that no method has, and other dashes where they lie
 /// over each other.
@@ -38,32 +36,65 @@ const fn name(estimator: EstimatorName) -> &'static str {
 /// How dark the band is.
 const OPACITY: f64 = 0.4;
 
-/// A measure of the experiment `label` against the step: a panel for each planner, in it a line for each
-/// estimator, the mean over its runs over the degrees of freedom.
+/// A squared error or innovation over many runs, each over its degrees of freedom.
+#[derive(Clone, Debug)]
+pub struct ConsistencyCurves<'a> {
+    /// What it is called, such as `Pose NEES`.
+    pub measure: &'a str,
+    /// The environment.
+    pub label: &'a str,
+    /// How many runs each curve is of.
+    pub runs: usize,
+    /// The probability with which a consistent filter stays within the band.
+    pub confidence: f64,
+    /// The curves.
+    pub curves: Vec<ConsistencyCurve>,
+}
+
+/// The mean over the runs of one planner and estimator.
+#[derive(Clone, Debug)]
+pub struct ConsistencyCurve {
+    /// The planner.
+    pub method: Method,
+    /// The estimator.
+    pub estimator: EstimatorName,
+    /// The steps that have one.
+    pub steps: Vec<BandedMean>,
+}
+
+/// A mean and the band within which that of a consistent filter lies.
+#[derive(Clone, Copy, Debug)]
+pub struct BandedMean {
+    /// The step.
+    pub step: usize,
+    /// The mean over the runs.
+    pub mean: f64,
+    /// The lower end of the band.
+    pub low: f64,
+    /// Its upper end.
+    pub high: f64,
+}
+
+/// A measure against the step: a panel for each planner, in it a line for each estimator.
 ///
 /// # Errors
 /// [`FigureError::Layout`].
-pub fn consistency(
-    label: &str,
-    measure: Measure,
-    results: &ConsistencyResults,
-) -> Result<Figure, FigureError> {
-    let cells: Vec<(&ConsistencyCell, &Judgement)> = results
-        .cells
-        .iter()
-        .filter(|cell| cell.label == label)
-        .filter_map(|cell| Some((cell, cell.judgement(measure)?)))
-        .collect();
-    let of = |planner: PlannerName| {
-        cells
-            .iter()
-            .filter(move |(cell, _)| cell.planner == planner)
+pub fn consistency(of_runs: &ConsistencyCurves<'_>) -> Result<Figure, FigureError> {
+    let ConsistencyCurves {
+        measure,
+        label,
+        runs,
+        confidence,
+        curves,
+    } = of_runs;
+    let mut methods: Vec<&Method> = curves.iter().map(|curve| &curve.method).collect();
+    methods.sort_by_key(|method| method.name());
+    methods.dedup();
+    let of = |method: &Method| {
+        let method = method.clone();
+        curves.iter().filter(move |curve| curve.method == method)
     };
-    let planners: Vec<PlannerName> = PlannerName::ALL
-        .into_iter()
-        .filter(|planner| of(*planner).next().is_some())
-        .collect();
-    let all_steps = cells.iter().flat_map(|(_, judged)| &judged.steps);
+    let all_steps = curves.iter().flat_map(|curve| &curve.steps);
     let last = all_steps.map(|step| step.step).max().unwrap_or(1);
     let steps = Axis::steps(last);
     let band = Look::Area {
@@ -73,52 +104,51 @@ pub fn consistency(
     };
     let one = Look::Line(Stroke::dashed(AXIS, 1.0, (1.5, 2.0)));
     let mut legend: Vec<Entry> = Vec::new();
-    for (cell, _) in &cells {
-        let entry = Entry::new(Look::Line(stroke(cell.estimator)), name(cell.estimator));
+    for curve in curves {
+        let estimator = curve.estimator;
+        let entry = Entry::new(Look::Line(stroke(estimator)), name(estimator));
         if legend.iter().all(|known| known.label != entry.label) {
             legend.push(entry);
         }
     }
     let interval = format!(
         "{:.0} % interval of the mean of the runs",
-        CHI_SQUARED_CONFIDENCE * 100.0
+        confidence * 100.0
     );
     legend.push(Entry::new(band, interval));
-    let rows = planners.len().div_ceil(2).max(1);
-    let key = measure.title().to_lowercase().replace(' ', "-");
+    let rows = methods.len().div_ceil(2).max(1);
+    let key = measure.to_lowercase().replace(' ', "-");
     let frame = Frame {
         name: &format!("{label}-{key}"),
         title: &format!(
-            "{} over its degrees of freedom against step, mean of {} runs, {label}",
-            measure.title(),
-            results.runs
+            "{measure} over its degrees of freedom against step, mean of {runs} runs, {label}",
         ),
         width: FULL_WIDTH,
         height: 40.0 + 190.0 * rows as f64,
     };
     frame.draw(|area| {
         let panels = below_legend(area, &legend, FULL_WIDTH)?.split_evenly((rows, 2));
-        for ((panel, &planner), letter) in panels.iter().zip(&planners).zip('a'..) {
+        for ((panel, &method), letter) in panels.iter().zip(&methods).zip('a'..) {
             let mut shapes = Vec::new();
             // How many numbers were measured, and so the band of NIS, differs a little between estimators:
             // together they are as dark as the one in the legend.
-            let bands = of(planner).count().max(1) as f64;
+            let bands = of(method).count().max(1) as f64;
             let faint = Look::Area {
                 fill: BAND,
                 opacity: OPACITY / bands,
                 edge: None,
             };
-            shapes.extend(of(planner).map(|(_, judged)| Shape::new(band_of(judged), faint)));
+            shapes.extend(of(method).map(|curve| Shape::new(band_of(curve), faint)));
             shapes.push(Shape::new(vec![(0.0, 1.0), (last as f64, 1.0)], one));
-            for (cell, judged) in of(planner) {
-                let points = judged.steps.iter().map(|s| (s.step as f64, s.mean));
-                shapes.push(Shape::line(points.collect(), stroke(cell.estimator)));
+            for curve in of(method) {
+                let points = curve.steps.iter().map(|s| (s.step as f64, s.mean));
+                shapes.push(Shape::line(points.collect(), stroke(curve.estimator)));
             }
             // Each panel has its own axis: where one planner loses its way the others would be flat lines.
-            let shown = of(planner).flat_map(|(_, judged)| &judged.steps);
-            let values = shown.flat_map(|s| [s.mean, s.interval.low, s.interval.high]);
-            let axis = Axis::log(&format!("{} / dof", measure.title()), values);
-            let title = format!("({letter}) {}", method_name(planner));
+            let shown = of(method).flat_map(|curve| &curve.steps);
+            let values = shown.flat_map(|s| [s.mean, s.low, s.high]);
+            let axis = Axis::log(&format!("{measure} / dof"), values);
+            let title = format!("({letter}) {}", method.label());
             Chart::new(title, steps.clone(), axis).draw(panel, shapes)?;
         }
         Ok(())
@@ -126,11 +156,8 @@ pub fn consistency(
 }
 
 /// The interval at every step, there and back.
-fn band_of(judged: &Judgement) -> Vec<(f64, f64)> {
-    let low = judged.steps.iter().map(|s| (s.step as f64, s.interval.low));
-    let high = judged
-        .steps
-        .iter()
-        .map(|s| (s.step as f64, s.interval.high));
+fn band_of(curve: &ConsistencyCurve) -> Vec<(f64, f64)> {
+    let low = curve.steps.iter().map(|s| (s.step as f64, s.low));
+    let high = curve.steps.iter().map(|s| (s.step as f64, s.high));
     low.chain(high.rev()).collect()
 }

@@ -8,8 +8,9 @@ use crate::error::FigureError;
 use crate::figure::{Figure, Frame};
 use crate::legend::Entry;
 use crate::methods::{below_legend, curve, entries, in_order, last_step, numbered, subject};
+use crate::method::Method;
 use crate::shape::{Look, Shape};
-use crate::style::{AXIS, Colour, FULL_WIDTH, Stroke, method_colour, method_stroke};
+use crate::style::{AXIS, Colour, FULL_WIDTH, Stroke};
 
 /// The share of the features seen at least once, with a ring where it reaches all of them, and
 /// the observed feature times so far.
@@ -27,7 +28,7 @@ pub fn coverage(name: &str, histories: &[&RunHistory]) -> Result<Figure, FigureE
         });
         let complete = share.points.iter().find(|point| point.1 >= 100.0);
         let complete =
-            complete.map(|point| Shape::new(vec![*point], ring(method_colour(history.planner))));
+            complete.map(|point| Shape::new(vec![*point], ring(Method::of(history).colour())));
         shares.push(share);
         shares.extend(complete);
         totals.push(observed(history));
@@ -79,7 +80,7 @@ fn observed(history: &RunHistory) -> Shape<(f64, f64)> {
         }
         (n, total)
     });
-    Shape::line(points.collect(), method_stroke(history.planner))
+    Shape::line(points.collect(), Method::of(history).stroke())
 }
 
 fn ring(colour: Colour) -> Look {

@@ -8,9 +8,10 @@ use crate::error::FigureError;
 use crate::figure::{Figure, Frame};
 use crate::legend::Entry;
 use crate::methods::{below_legend, in_order, subject};
+use crate::method::Method;
 use crate::scene::{Bounds, Camera, Scene, Solid, ellipsoid_outline};
 use crate::shape::{Look, Shape};
-use crate::style::{AXIS, Colour, FULL_WIDTH, INK, SURFACE, Stroke, method_colour, method_name};
+use crate::style::{AXIS, Colour, FULL_WIDTH, INK, SURFACE, Stroke};
 
 /// How large covariance ellipsoids are drawn.
 const SIGMAS: f64 = 3.0;
@@ -48,7 +49,8 @@ pub fn estimates(name: &str, histories: &[&RunHistory]) -> Result<Figure, Figure
     frame.draw(|area| {
         let panels = below_legend(area, &legend(), FULL_WIDTH)?.split_evenly((rows, 2));
         for ((panel, history), letter) in panels.iter().zip(&histories).zip('a'..) {
-            let method = method_name(history.planner);
+            let method = Method::of(history);
+            let method = method.label();
             let left = part.left_at(history);
             let note = left.map(|step| format!(" (leaves the picture at step {step})"));
             let scene = Scene {
@@ -90,7 +92,7 @@ impl Part {
         let centre = Point3::from(sum / object.len().max(1) as f64);
         let planned: Vec<&&RunHistory> = histories
             .iter()
-            .filter(|h| h.planner != PlannerName::Predetermined)
+            .filter(|h| h.planner != PlannerName::PREDETERMINED)
             .collect();
         let positions = planned.iter().flat_map(|h| positions(h));
         let distances = positions.chain(object).map(|p| (p - centre).norm());
@@ -154,7 +156,7 @@ fn positions(history: &RunHistory) -> impl Iterator<Item = Point3<f64>> {
 
 /// Paths, ellipsoids and features, what covers least on top.
 fn shapes(history: &RunHistory, part: &Part, camera: &Camera) -> Vec<Shape<Point3<f64>>> {
-    let colour = method_colour(history.planner);
+    let colour = Method::of(history).colour();
     let steps = part.steps(history);
     let truth: Vec<Point3<f64>> = steps.iter().map(|step| step.true_pose().position).collect();
     let estimate = steps.iter().map(|step| step.estimate().position).collect();

@@ -1,19 +1,20 @@
 //! What the charts of several methods have in common.
 
-use adslam_names::PlannerName;
 use adslam_record::{HistoryStep, RunHistory};
 
 use crate::error::DrawingError;
 use crate::figure::Area;
 use crate::legend::{self, Entry};
+use crate::method::Method;
 use crate::shape::{Look, Shape};
 use crate::sheet::size_in_units;
-use crate::style::{FLOOR, method_name, method_stroke};
+use crate::style::FLOOR;
 
-/// The histories in the order of the paper's tables, whatever order they came in.
+/// The histories in the order of the paper's tables, others by their names, whatever order they came in.
 pub(crate) fn in_order<'a>(histories: &[&'a RunHistory]) -> Vec<&'a RunHistory> {
-    let of = |method: PlannerName| histories.iter().filter(move |h| h.planner == method);
-    PlannerName::ALL.into_iter().flat_map(of).copied().collect()
+    let mut sorted = histories.to_vec();
+    sorted.sort_by_key(|history| history.planner);
+    sorted
 }
 
 /// The name of a scenario with a capital, and of the seed if all runs have the same.
@@ -41,7 +42,7 @@ pub(crate) fn curve(
     value: impl Fn(&HistoryStep) -> Option<f64>,
 ) -> Shape<(f64, f64)> {
     let points = numbered(history).filter_map(|(n, step)| Some((n, value(step)?)));
-    Shape::line(points.collect(), method_stroke(history.planner))
+    Shape::line(points.collect(), Method::of(history).stroke())
 }
 
 /// The drift floor of a history, each step's value times `factor`; empty where it has none.
@@ -53,10 +54,10 @@ pub(crate) fn drift_floor(history: &RunHistory, factor: f64) -> Shape<(f64, f64)
 
 /// An entry for each method that there is.
 pub(crate) fn entries(histories: &[&RunHistory]) -> Vec<Entry> {
-    let mut methods: Vec<PlannerName> = histories.iter().map(|h| h.planner).collect();
+    let mut methods: Vec<Method> = histories.iter().map(|history| Method::of(history)).collect();
     methods.dedup();
-    let entry = |method| Entry::new(Look::Line(method_stroke(method)), method_name(method));
-    methods.into_iter().map(entry).collect()
+    let entry = |method: &Method| Entry::new(Look::Line(method.stroke()), method.label());
+    methods.iter().map(entry).collect()
 }
 
 /// Cuts the rows of a legend off the top of an area and draws it there; returns the rest.

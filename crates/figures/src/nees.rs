@@ -8,8 +8,9 @@ use crate::error::FigureError;
 use crate::figure::{Figure, Frame};
 use crate::legend::Entry;
 use crate::methods::{below_legend, curve, in_order, last_step, subject};
+use crate::method::Method;
 use crate::shape::{Look, Shape};
-use crate::style::{AXIS, BAND, FULL_WIDTH, Stroke, method_name};
+use crate::style::{AXIS, BAND, FULL_WIDTH, Stroke};
 
 /// Where χ² of 6 degrees of freedom lies with a probability of 95 %, 2.5 % on either side.
 pub const CHI_SQUARED_6_BOUNDS: (f64, f64) = (1.237_344, 14.449_375);
@@ -57,7 +58,8 @@ pub fn nees(name: &str, histories: &[&RunHistory]) -> Result<Figure, FigureError
         let panels = below_legend(area, &legend, FULL_WIDTH)?.split_evenly((rows, 2));
         let of_methods = histories.iter().zip(lines).zip('a'..);
         for (panel, ((history, line), letter)) in panels.iter().zip(of_methods) {
-            let method = method_name(history.planner);
+            let method = Method::of(history);
+            let method = method.label();
             let title = format!("({letter}) {method}{}", inside(&line));
             let end = last as f64;
             let corners = vec![(0.0, low), (end, low), (end, high), (0.0, high)];

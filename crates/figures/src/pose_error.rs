@@ -10,9 +10,10 @@ use crate::error::FigureError;
 use crate::figure::{Figure, Frame};
 use crate::legend::Entry;
 use crate::methods::{below_legend, drift_floor, in_order, last_step, numbered, subject};
+use crate::method::Method;
 use crate::shape::{Look, Shape};
 use crate::sheet::units;
-use crate::style::{AXIS, Colour, FLOOR, FULL_WIDTH, Stroke, method_colour, method_name};
+use crate::style::{AXIS, Colour, FLOOR, FULL_WIDTH, Stroke};
 
 /// The components of the pose, in the order of the state.
 const COMPONENTS: [&str; 6] = [
@@ -43,7 +44,7 @@ pub fn pose_error(name: &str, histories: &[&RunHistory]) -> Result<Figure, Figur
     let steps = Axis::steps(last_step(&histories));
     let mut legend = vec![
         Entry::new(Look::Line(Stroke::solid(AXIS, 1.2)), "estimate − truth"),
-        Entry::new(band(PlannerName::Predetermined), "±3σ of the filter"),
+        Entry::new(band(PlannerName::PREDETERMINED), "±3σ of the filter"),
     ];
     if histories.iter().any(|h| !floor(h, 1.0).points.is_empty()) {
         legend.push(Entry::new(Look::Line(FLOOR), "±3σ of the drift floor"));
@@ -78,8 +79,9 @@ pub fn pose_error(name: &str, histories: &[&RunHistory]) -> Result<Figure, Figur
                     left: 0.0,
                 };
                 if row == 0 {
-                    chart.title = method_name(column.history.planner).to_owned();
-                    chart.title_colour = line_colour(column.history.planner);
+                    let method = Method::of(column.history);
+                    method.label().clone_into(&mut chart.title);
+                    chart.title_colour = method.line_colour();
                     chart.margins.top += top;
                 }
                 if row + 1 == COMPONENTS.len() {
@@ -111,7 +113,7 @@ struct Column<'a> {
 /// The columns from the left. Away from the object the predetermined path's errors are so large
 /// that it has a scale of its own.
 fn columns<'a>(histories: &[&'a RunHistory]) -> Vec<Column<'a>> {
-    let is_apart = |history: &RunHistory| history.planner == PlannerName::Predetermined;
+    let is_apart = |history: &RunHistory| history.planner == PlannerName::PREDETERMINED;
     let has_numbers = |i: usize| i == 0 || is_apart(histories[i]) != is_apart(histories[i - 1]);
     let numbered = (0..histories.len()).filter(|i| has_numbers(*i)).count() as f64;
     let width = (FULL_WIDTH - numbered * NUMBERS) / histories.len().max(1) as f64;
@@ -169,9 +171,10 @@ fn shapes(history: &RunHistory, component: usize) -> Vec<Shape<(f64, f64)>> {
     let above = values.iter().map(|&(n, _, bound)| (n, bound));
     let below = values.iter().rev().map(|&(n, _, bound)| (n, -bound));
     let line = values.iter().map(|&(n, error, _)| (n, error)).collect();
-    let colour = line_colour(history.planner);
+    let method = Method::of(history);
+    let colour = method.line_colour();
     let mut shapes = vec![
-        Shape::new(above.chain(below).collect(), band(history.planner)),
+        Shape::new(above.chain(below).collect(), band(&method)),
         Shape::line(line, Stroke::solid(colour, 1.0)),
     ];
     if is_position(component) {
@@ -180,18 +183,10 @@ fn shapes(history: &RunHistory, component: usize) -> Vec<Shape<(f64, f64)>> {
     shapes
 }
 
-fn band(method: PlannerName) -> Look {
+fn band(method: &Method) -> Look {
     Look::Area {
-        fill: method_colour(method),
+        fill: method.colour(),
         opacity: 0.25,
         edge: None,
-    }
-}
-
-/// A method's colour, but a darker grey: grey on grey would not be seen.
-fn line_colour(method: PlannerName) -> Colour {
-    match method {
-        PlannerName::Predetermined => AXIS,
-        method => method_colour(method),
     }
 }

@@ -3,7 +3,6 @@
 
 use std::fmt;
 
-use adslam_names::PlannerName;
 
 /// The width of a figure across both columns, px.
 pub(crate) const FULL_WIDTH: f64 = 688.0;
@@ -64,42 +63,3 @@ impl Stroke {
 
 /// The drift floor.
 pub(crate) const FLOOR: Stroke = Stroke::dashed(INK, 0.9, (0.9, 1.9));
-
-/// The colour of a method everywhere: Okabe and Ito's, which are told apart without colour vision.
-pub(crate) const fn method_colour(method: PlannerName) -> Colour {
-    match method {
-        PlannerName::Predetermined => Colour(0x99, 0x99, 0x99),
-        PlannerName::Local => Colour(0xd5, 0x5e, 0x00),
-        PlannerName::Global => Colour(0x00, 0x72, 0xb2),
-        PlannerName::Combined => Colour(0x00, 0x9e, 0x73),
-    }
-}
-
-/// The line of a method in a chart.
-pub(crate) const fn method_stroke(method: PlannerName) -> Stroke {
-    let colour = method_colour(method);
-    match method {
-        PlannerName::Predetermined => Stroke::dashed(colour, 1.4, (4.0, 2.0)),
-        _ => Stroke::solid(colour, 1.4),
-    }
-}
-
-/// What a method is called in a figure.
-pub(crate) const fn method_name(method: PlannerName) -> &'static str {
-    match method {
-        PlannerName::Predetermined => "Predetermined",
-        PlannerName::Local => "Local",
-        PlannerName::Global => "Global",
-        PlannerName::Combined => "Combined",
-    }
-}
-
-/// The same in the least space.
-pub(crate) const fn method_short_name(method: PlannerName) -> &'static str {
-    match method {
-        PlannerName::Predetermined => "Pre",
-        PlannerName::Local => "Local",
-        PlannerName::Global => "Global",
-        PlannerName::Combined => "Comb.",
-    }
-}

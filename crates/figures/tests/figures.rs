@@ -5,13 +5,11 @@
 use std::path::Path;
 
 use adslam_diagnostics::Interrupt;
-use adslam_experiment::consistency::{
-    ConsistencyCell, ConsistencyRecord, ConsistencyResults, Measure,
-};
 use adslam_experiment::run::simulate;
-use adslam_experiment::tables::{ExperimentTables, TablePlan};
+use adslam_experiment::tables::{ExperimentTables, PlannerRuns, TablePlan};
 use adslam_figures::{
-    Figure, boxes, comparison, consistency, coverage, environments, estimates, nees, pose_error,
+    BandedMean, ConsistencyCurve, ConsistencyCurves, Figure, Method, RunsOfMethod, boxes, comparison, consistency,
+    coverage, environments, estimates, nees, pose_error,
 };
 use adslam_names::{EstimatorName, PlannerName};
 use adslam_record::{HistoryRecorder, RunHistory};
@@ -34,7 +32,7 @@ fn record(scenario: &str, steps: usize) -> Vec<RunHistory> {
         simulate(&setup, planner, 1, &Interrupt::new(), &mut recorder).unwrap();
         recorder.into_history()
     };
-    PlannerName::ALL.into_iter().map(run).collect()
+    PlannerName::PAPER.into_iter().map(run).collect()
 }
 
 fn tables(runs: usize) -> ExperimentTables {
@@ -47,7 +45,7 @@ fn tables(runs: usize) -> ExperimentTables {
     let mut config = config;
     for plan in &mut config.experiments {
         plan.planners
-            .retain(|planner| *planner != PlannerName::Local);
+            .retain(|planner| *planner != PlannerName::LOCAL);
     }
     let plan = TablePlan::new(config, &selection).unwrap();
     plan.run(&Interrupt::new(), &|| ()).experiments.remove(0)
@@ -158,10 +156,16 @@ fn runs_that_hardly_began_are_drawn() {
     }
 }
 
+fn of_methods(tables: &ExperimentTables) -> Vec<RunsOfMethod<'_>> {
+    let of = |p: &PlannerRuns| Method::new(p.planner, p.look.clone());
+    let planners = tables.planners.iter();
+    planners.map(|p| RunsOfMethod { method: of(p), runs: &p.runs }).collect()
+}
+
 #[test]
 fn box_plots_have_a_panel_for_each_number() {
     let mut tables = tables(3);
-    let figure = boxes("boxes", &tables).unwrap();
+    let figure = boxes("boxes", "hill", &of_methods(&tables)).unwrap();
     check(&figure, &["count", "steps", "cm, rad", "cm", "ms", "Comb."]);
     assert!(figure.svg().contains("Pose NEES, mean"));
     for planner in &mut tables.planners {
@@ -170,11 +174,11 @@ fn box_plots_have_a_panel_for_each_number() {
             run.pose_error_mean = f64::NAN;
         }
     }
-    check(&boxes("boxes", &tables).unwrap(), &["0 of 3"]);
+    check(&boxes("boxes", "hill", &of_methods(&tables)).unwrap(), &["0 of 3"]);
     tables.planners.iter_mut().for_each(|p| p.runs.clear());
-    check(&boxes("boxes", &tables).unwrap(), &[]);
+    check(&boxes("boxes", "hill", &of_methods(&tables)).unwrap(), &[]);
     tables.planners.clear();
-    check(&boxes("boxes", &tables).unwrap(), &[]);
+    check(&boxes("boxes", "hill", &of_methods(&tables)).unwrap(), &[]);
 }
 
 #[test]
@@ -193,27 +197,30 @@ fn both_files_are_written() {
 /// Two planners, one of them with two estimators; the other measure was never taken.
 #[test]
 fn consistency_has_a_panel_for_each_planner_and_a_line_for_each_estimator() {
-    let record = |nees: f64| ConsistencyRecord {
-        pose_nees: vec![None, Some(nees), Some(2.0 * nees)],
-        feature_nis: vec![(0.0, 0); 3],
-        ..ConsistencyRecord::default()
+    let curve = |estimator, planner, nees| ConsistencyCurve {
+        method: Method::new(planner, None),
+        estimator,
+        steps: (2..4)
+            .map(|step| BandedMean {
+                step,
+                mean: nees / 6.0,
+                low: 0.5,
+                high: 1.5,
+            })
+            .collect(),
     };
-    let cell = |estimator, planner, nees| {
-        ConsistencyCell::of("hill", estimator, planner, &[&record(nees), &record(1.0)])
-    };
-    let results = ConsistencyResults {
-        title: "test".to_owned(),
+    let mut curves = ConsistencyCurves {
+        measure: "Pose NEES",
+        label: "hill",
         runs: 2,
-        first_seed: 1,
-        warnings: Vec::new(),
-        builds: Vec::new(),
-        cells: vec![
-            cell(EstimatorName::EulerEkf, PlannerName::Local, 4.0),
-            cell(EstimatorName::RightInvariantEkf, PlannerName::Local, 7.0),
-            cell(EstimatorName::EulerEkf, PlannerName::Global, 900.0),
+        confidence: 0.99,
+        curves: vec![
+            curve(EstimatorName::EulerEkf, PlannerName::LOCAL, 4.0),
+            curve(EstimatorName::RightInvariantEkf, PlannerName::LOCAL, 7.0),
+            curve(EstimatorName::EulerEkf, PlannerName::GLOBAL, 900.0),
         ],
     };
-    let figure = consistency("hill", Measure::PoseNees, &results).unwrap();
+    let figure = consistency(&curves).unwrap();
     assert_eq!(figure.name(), "hill-pose-nees");
     let texts = [
         "Euler EKF",
@@ -226,6 +233,6 @@ fn consistency_has_a_panel_for_each_planner_and_a_line_for_each_estimator() {
     check(&figure, &texts);
     assert!(!figure.svg().contains("SO(3) EKF"), "no such line is there");
     // Nothing to draw is an empty figure, not a failure.
-    let empty = consistency("hill", Measure::FeatureNis, &results).unwrap();
-    check(&empty, &[]);
+    curves.curves.clear();
+    check(&consistency(&curves).unwrap(), &[]);
 }

@@ -2,11 +2,11 @@
 //! was given.
 //!
 //! ```
-//! use adslam_names::{Named, PlannerName};
+//! use adslam_names::{EstimatorName, Named, PlannerName};
 //!
-//! assert_eq!(PlannerName::named("local"), Ok(PlannerName::Local));
-//! let error = PlannerName::named("combind").unwrap_err();
-//! assert!(error.to_string().contains("did you mean combined?"));
+//! assert_eq!(PlannerName::new("local"), Ok(PlannerName::LOCAL));
+//! let error = EstimatorName::named("so3_ekv").unwrap_err();
+//! assert!(error.to_string().contains("did you mean so3_ekf?"));
 //! ```
 
 mod estimators;
@@ -20,5 +20,5 @@ pub use estimators::EstimatorName;
 pub use listed::numbers;
 pub use named::{Named, UnknownName};
 pub use near::nearest;
-pub use planners::PlannerName;
+pub use planners::{BadPlannerName, PlannerLook, PlannerName};
 pub use unit::LengthUnit;

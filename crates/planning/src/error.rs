@@ -1,11 +1,12 @@
 //! Why no decision could be made.
 
+use std::error::Error;
+
 use adslam_estimator::EstimatorError;
 use adslam_surface::SurfaceError;
-use thiserror::Error;
 
 /// A decision or a viewpoint set that could not be made.
-#[derive(Debug, Error)]
+#[derive(Debug, thiserror::Error)]
 pub enum PlanningError {
     /// The filter's mathematics failed.
     #[error(transparent)]
@@ -13,6 +14,9 @@ pub enum PlanningError {
     /// The estimated features do not make a surface.
     #[error("the surface of the estimated features cannot be used: {0}")]
     Surface(#[from] SurfaceError),
+    /// What a planner of one's own has to say.
+    #[error(transparent)]
+    Other(#[from] Box<dyn Error + Send + Sync>),
     /// The robot has nothing to choose from.
     #[error("the set of actions is empty; give at least one value for each of its lists")]
     NoActions,

@@ -14,9 +14,15 @@ const LICENCES: &str = include_str!("../web/dist/LICENSES.txt");
 pub(crate) fn title(histories: &[&RunHistory]) -> String {
     let runs: Vec<String> = histories
         .iter()
-        .map(|run| format!("{}, {}, seed {}", run.scenario, run.planner, run.seed))
+        .map(|run| format!("{}, {}, seed {}", run.scenario, planner(run), run.seed))
         .collect();
     runs.join(" | ")
+}
+
+/// What its planner is called.
+fn planner(run: &RunHistory) -> &str {
+    let look = run.planner_look.as_ref();
+    look.map_or(run.planner.as_str(), |look| &look.label)
 }
 
 /// Fills the template. What is put in is not looked at again, whatever it contains.

@@ -61,12 +61,12 @@ fn pages_of_one_and_two_runs_work_in_a_browser() {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
-    let mut combined = history("polygon", PlannerName::Combined, 40);
+    let mut combined = history("polygon", PlannerName::COMBINED, 40);
     combined.scenario = "</script><b>polygon".to_owned();
     // An object that turns as a whole, and breathes deeper than believed.
     let departed = "[mismatch]\ndeformation_factor = 1.5\n\n\
         [mismatch.rotation]\naxis = [1, 2, 3]\nrate_deg_per_step = 4";
-    let heart = history_with("heart", departed, PlannerName::Global, 12);
+    let heart = history_with("heart", departed, PlannerName::GLOBAL, 12);
     let one = folder.path().join("one.html");
     let two = folder.path().join("two.html");
     write_html(&[&combined], &one).unwrap();

@@ -13,9 +13,9 @@ const MEGABYTE: usize = 1_000_000;
 
 #[test]
 fn the_runs_of_a_page_are_those_that_it_was_made_from() {
-    let mut first = history("polygon", PlannerName::Combined, 5);
+    let mut first = history("polygon", PlannerName::COMBINED, 5);
     first.scenario = "</script><script>alert('& <!--')\u{2028}".to_owned();
-    let second = history("polygon", PlannerName::Local, 4);
+    let second = history("polygon", PlannerName::LOCAL, 4);
     let page = html(&[&first, &second]).unwrap();
     assert_eq!(embedded_histories(&page).unwrap(), [first.clone(), second]);
     assert_eq!(
@@ -31,7 +31,7 @@ fn the_runs_of_a_page_are_those_that_it_was_made_from() {
 #[test]
 fn a_heart_of_50_features_and_200_steps_stays_below_5_megabytes() {
     let folder = tempfile::tempdir().unwrap();
-    let run = history("heart", PlannerName::Global, 200);
+    let run = history("heart", PlannerName::GLOBAL, 200);
     run.to_file(folder.path()).unwrap().commit().unwrap();
     let stored = fs::metadata(folder.path().join(HISTORY_FILE)).unwrap();
     assert!(stored.len() < 3 * MEGABYTE as u64, "{}", stored.len());
@@ -45,7 +45,7 @@ fn a_heart_of_50_features_and_200_steps_stays_below_5_megabytes() {
 
 #[test]
 fn what_makes_no_page_is_refused_and_changes_nothing() {
-    let run = history("polygon", PlannerName::Predetermined, 2);
+    let run = history("polygon", PlannerName::PREDETERMINED, 2);
     assert!(matches!(html(&[]), Err(EmbedError::Count(0))));
     assert!(matches!(
         html(&[&run, &run, &run]),

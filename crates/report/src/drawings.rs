@@ -1,8 +1,8 @@
 //! The figures of an experiment, as images inside the page.
 
-use adslam_experiment::tables::ExperimentTables;
+use adslam_experiment::tables::{ExperimentTables, PlannerRuns};
 use adslam_figures::{
-    Figure, FigureError, boxes, comparison, coverage, environments, estimates, nees, pose_error,
+    Figure, FigureError, Method, RunsOfMethod, boxes, comparison, coverage, environments, estimates, nees, pose_error,
 };
 use adslam_record::RunHistory;
 use base64::Engine;
@@ -56,12 +56,25 @@ pub(crate) fn figures(experiment: &ExperimentTables) -> Markup {
         drawings.push(Drawing {
             caption: "Every number of the tables over all runs: quartiles, whiskers, and each \
                       run as a dot.",
-            figure: boxes("boxes", experiment),
+            figure: boxes("boxes", &experiment.label, &runs_of_methods(experiment)),
         });
     }
     html! {
         @for drawing in &drawings { (drawing.markup()) }
     }
+}
+
+/// The runs of an experiment as box plots take them.
+#[must_use]
+pub fn runs_of_methods(experiment: &ExperimentTables) -> Vec<RunsOfMethod<'_>> {
+    let of = |planner: &'_ PlannerRuns| Method::new(planner.planner, planner.look.clone());
+    let planners = experiment.planners.iter();
+    planners
+        .map(|planner| RunsOfMethod {
+            method: of(planner),
+            runs: &planner.runs,
+        })
+        .collect()
 }
 
 impl Drawing {

@@ -21,6 +21,7 @@ use adslam_diagnostics::Failure;
 use adslam_experiment::tables::{ExperimentTables, Tables};
 use adslam_record::{AtomicFile, prepare_folder};
 
+pub use drawings::runs_of_methods;
 pub use machine::Machine;
 
 /// The name of the page.

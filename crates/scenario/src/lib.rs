@@ -13,6 +13,7 @@ mod noise;
 mod object;
 mod overridden;
 mod planners;
+pub mod registry;
 mod robot;
 pub mod schema;
 pub mod sweep;
@@ -42,6 +43,7 @@ pub use noise::{DeformationNoise, Filter, FilterNoise, Noise, Structure};
 pub use object::{Mesh, MeshPlacement, Object, Phantom, Points};
 pub use planners::{Combined, Global, Local, Planners, Predetermined};
 pub use robot::{Actions, Robot, Sensor};
+use registry::Registry;
 use values::{Name, Steps};
 pub use viewpoints::{Fixed, Grid, Viewpoints};
 
@@ -89,6 +91,9 @@ pub struct Scenario {
     /// The text all this came from, to point at when something turns out wrong later.
     #[serde(skip)]
     document: Document,
+    /// What its planners' names stand for.
+    #[serde(skip)]
+    registry: Registry,
 }
 
 impl Scenario {
@@ -98,9 +103,17 @@ impl Scenario {
     /// When the file cannot be read or holds anything but a valid scenario; the error points at the
     /// place. A mesh file is not opened.
     pub fn load(path: &Path) -> Result<Self, InputError> {
+        Self::load_with(path, &Registry::standard())
+    }
+
+    /// The same for a program with planners of its own, whose keys it may have.
+    ///
+    /// # Errors
+    /// As [`Scenario::load`].
+    pub fn load_with(path: &Path, registry: &Registry) -> Result<Self, InputError> {
         let document = Document::read(path)?;
         FileKind::Scenario.expect(&document)?;
-        Self::from_document(document)
+        Self::from_document(document, registry)
     }
 
     /// Reads and checks a scenario from `text`, as if it were the content of the file at `path`.
@@ -108,11 +121,21 @@ impl Scenario {
     /// # Errors
     /// As [`Scenario::load`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
-        Self::from_document(Document::parse(text, path)?)
+        Self::parse_with(text, path, &Registry::standard())
     }
 
-    pub(crate) fn from_document(document: Document) -> Result<Self, InputError> {
-        let mut scenario: Self = document.deserialize()?;
+    /// The same for a program with planners of its own.
+    ///
+    /// # Errors
+    /// As [`Scenario::load`].
+    pub fn parse_with(text: &str, path: &Path, registry: &Registry) -> Result<Self, InputError> {
+        Self::from_document(Document::parse(text, path)?, registry)
+    }
+
+    fn from_document(document: Document, registry: &Registry) -> Result<Self, InputError> {
+        let mut scenario: Self = document.deserialize_without(&registry.own_tables())?;
+        scenario.planners.own = registry.own_keys(&document)?.into_iter().collect();
+        scenario.registry = registry.clone();
         checks::check(&scenario, &document)?;
         if let Object::Mesh(mesh) = &mut scenario.object {
             let folder = document.path().parent().unwrap_or(Path::new(""));
@@ -135,6 +158,12 @@ impl Scenario {
         self.object = self.object.replaced_by_mesh(file.into(), placement);
         self.mesh_is_given = true;
         self
+    }
+
+    /// What its planners' names stand for.
+    #[must_use]
+    pub fn registry(&self) -> &Registry {
+        &self.registry
     }
 
     /// The file this scenario came from.
@@ -209,12 +238,11 @@ impl Scenario {
 
     /// The time that a planner has for a decision, ms; absent where it takes as long as it takes.
     pub fn deadline_ms(&self, planner: PlannerName) -> Option<f64> {
-        let deadline = match planner {
-            PlannerName::Local => self.planners.local.deadline_ms,
-            PlannerName::Combined => self.planners.combined.deadline_ms,
-            PlannerName::Predetermined | PlannerName::Global => None,
-        };
-        deadline.map(|ms| *ms)
+        match planner {
+            PlannerName::LOCAL => self.planners.local.deadline_ms.map(|ms| *ms),
+            PlannerName::COMBINED => self.planners.combined.deadline_ms.map(|ms| *ms),
+            other => self.planners.own.get(&other)?["deadline_ms"].as_f64(),
+        }
     }
 
     /// How the object whose features rest at `rest` (world frame, cm) truly moves: `[motion]`, from

@@ -42,7 +42,7 @@ impl Scenario {
                     "write at most {MOST_OVERRIDES}, and the rest into a scenario of its own"
                 )));
         }
-        let error = match Self::from_document(merged.clone()) {
+        let error = match Self::from_document(merged.clone(), &self.registry) {
             Err(error) if merged.is_in_base(&error) => error,
             result => return result,
         };
@@ -50,7 +50,7 @@ impl Scenario {
         // without which all would be well.
         let guilty = overrides
             .iter()
-            .find(|one| Self::from_document(merged.without_override(one)).is_ok());
+            .find(|one| Self::from_document(merged.without_override(one), &self.registry).is_ok());
         let message = format!("with this override, {}", error.message());
         let blamed = match guilty {
             Some(one) => merged.error_at_override(one, message),

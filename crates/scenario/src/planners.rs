@@ -1,8 +1,12 @@
 //! `[planners]`: the parameters that each planner has in this world, and the planners' names.
 
+use std::collections::BTreeMap;
+
+use adslam_names::PlannerName;
 use adslam_planning::Nearest;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::values::{Fraction, Many, NonNegative, Positive, Vec3};
 
@@ -19,6 +23,10 @@ pub struct Planners {
     pub global: Global,
     /// The combined planner, section III-D.
     pub combined: Combined,
+    /// The keys of planners that a program has of its own, all with the values that hold.
+    #[serde(flatten, skip_deserializing)]
+    #[schemars(skip)]
+    pub own: BTreeMap<PlannerName, Value>,
 }
 
 /// The predetermined path: the same control at every step.

@@ -9,7 +9,7 @@ use adslam_record::log::GateChoice;
 use adslam_scenario::values::{self, ValueError};
 use clap::{Args, ValueEnum};
 
-use crate::named::NameParser;
+use crate::named::{NameParser, PlannerParser};
 
 /// `adslam run`
 #[derive(Debug, Args)]
@@ -17,7 +17,7 @@ pub struct RunArgs {
     /// The scenario file: what the world is
     pub scenario: PathBuf,
     /// The planner
-    #[arg(long, value_name = "NAME", value_parser = NameParser::<PlannerName>::new())]
+    #[arg(long, value_name = "NAME", value_parser = PlannerParser::default())]
     pub planner: PlannerName,
     /// Seed of all noise; every planner meets the same noise at the same seed
     #[arg(long, default_value_t = 1, value_name = "N")]

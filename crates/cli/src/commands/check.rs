@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use adslam_diagnostics::{Failure, InputError};
 use adslam_experiment::{CheckedFile, check_file};
+use adslam_scenario::registry::Registry;
 use serde_json::json;
 
 use crate::CheckArgs;
@@ -15,16 +16,16 @@ use crate::print::{tell, warn};
 ///
 /// # Errors
 /// That of a single file; of several, that some are not valid, after each has been explained.
-pub fn check(args: &CheckArgs) -> Result<(), Failure> {
-    Answer::give(args.json, |answer| check_all(&args.files, answer))
+pub fn check(args: &CheckArgs, registry: &Registry) -> Result<(), Failure> {
+    Answer::give(args.json, |answer| check_all(&args.files, registry, answer))
 }
 
-fn check_all(files: &[PathBuf], answer: &mut Answer) -> Result<(), Failure> {
+fn check_all(files: &[PathBuf], registry: &Registry, answer: &mut Answer) -> Result<(), Failure> {
     let mut checked = Vec::new();
     let mut wrong = Vec::new();
     for path in files {
         let file = shown(path);
-        match check_file(path) {
+        match check_file(path, registry) {
             Ok(CheckedFile { kind, warnings }) => {
                 warn(&warnings);
                 answer.say(format_args!("{file}: valid {kind}"));

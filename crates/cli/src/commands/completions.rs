@@ -1,7 +1,7 @@
 //! `adslam completions`
 
 use adslam_diagnostics::Failure;
-use clap::CommandFactory;
+use adslam_scenario::registry::Registry;
 use clap_complete::Shell;
 
 use crate::Arguments;
@@ -11,8 +11,8 @@ use crate::print::print;
 ///
 /// # Errors
 /// A standard output that cannot be written to.
-pub fn completions(shell: Shell) -> Result<(), Failure> {
+pub fn completions(shell: Shell, registry: &Registry) -> Result<(), Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Arguments::command(), "adslam", &mut script);
+    clap_complete::generate(shell, &mut Arguments::command_with(registry), "adslam", &mut script);
     print(String::from_utf8_lossy(&script).trim_end())
 }

@@ -3,7 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use adslam_diagnostics::{Failure, Interrupt};
-use adslam_experiment::consistency::{ConsistencyPlan, ConsistencyResults, Measure, Verdict};
+use adslam_experiment::consistency::{
+    CHI_SQUARED_CONFIDENCE, ConsistencyCell, ConsistencyPlan, ConsistencyResults, Measure, Verdict,
+};
+use adslam_scenario::registry::Registry;
+use adslam_figures::{BandedMean, ConsistencyCurve, ConsistencyCurves, Method};
 use adslam_names::{EstimatorName, Named};
 use adslam_record::prepare_folder;
 
@@ -16,12 +20,13 @@ use crate::paths::folder_of;
 ///
 /// # Errors
 /// Bad input, runs that failed, files that cannot be written, or an interruption.
-pub fn consistency(args: &ConsistencyArgs, interrupt: &Interrupt) -> Result<(), Failure> {
-    Answer::give(args.json, |answer| judge(args, interrupt, answer))
+pub fn consistency(args: &ConsistencyArgs, registry: &Registry, interrupt: &Interrupt) -> Result<(), Failure> {
+    Answer::give(args.json, |answer| judge(args, registry, interrupt, answer))
 }
 
 fn judge(
     args: &ConsistencyArgs,
+    registry: &Registry,
     interrupt: &Interrupt,
     answer: &mut Answer,
 ) -> Result<(), Failure> {
@@ -29,7 +34,7 @@ fn judge(
         [] => EstimatorName::ALL,
         some => some,
     };
-    let plan = ConsistencyPlan::load(&args.config, &args.selection.selection(), estimators)?;
+    let plan = ConsistencyPlan::load_with(&args.config, &args.selection.selection(), estimators, registry)?;
     answer.warn(&plan.warnings());
     answer.set("title", &plan.title);
     let mut study = plan.open(&args.out, other_builds(args.accept_build))?;
@@ -85,9 +90,40 @@ fn write(results: &ConsistencyResults, folder: &Path) -> Result<Vec<PathBuf>, Fa
     prepare_folder(&figures)?;
     for label in results.labels() {
         for measure in [Measure::PoseNees, Measure::FeatureNis] {
-            let figure = adslam_figures::consistency(label, measure, results)?;
+            let figure = adslam_figures::consistency(&curves(label, measure, results))?;
             files.extend(figure.write(&figures)?);
         }
     }
     Ok(files)
+}
+
+/// A measure of an experiment as its figure takes it.
+fn curves<'a>(
+    label: &'a str,
+    measure: Measure,
+    results: &ConsistencyResults,
+) -> ConsistencyCurves<'a> {
+    let cells = results.cells.iter().filter(|cell| cell.label == label);
+    let curve = |cell: &ConsistencyCell| {
+        let means = cell.judgement(measure)?.steps.iter();
+        Some(ConsistencyCurve {
+            method: Method::new(cell.planner, cell.look.clone()),
+            estimator: cell.estimator,
+            steps: means
+                .map(|step| BandedMean {
+                    step: step.step,
+                    mean: step.mean,
+                    low: step.interval.low,
+                    high: step.interval.high,
+                })
+                .collect(),
+        })
+    };
+    ConsistencyCurves {
+        measure: measure.title(),
+        label,
+        runs: results.runs,
+        confidence: CHI_SQUARED_CONFIDENCE,
+        curves: cells.filter_map(curve).collect(),
+    }
 }

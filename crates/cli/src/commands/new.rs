@@ -7,6 +7,7 @@ use adslam_diagnostics::{Failure, InputError};
 use adslam_experiment::run::refuse_part_of_run;
 use adslam_record::{AtomicFile, prepare_folder};
 use adslam_scenario::Scenario;
+use adslam_scenario::registry::Registry;
 
 use crate::answer::Answer;
 use crate::args::{NewArgs, NewFile};
@@ -20,7 +21,7 @@ const SWEEP: &str = include_str!("../../templates/sweep.toml");
 ///
 /// # Errors
 /// A file that is there already, one that cannot be written, or a scenario that cannot be used.
-pub fn new(file: &NewFile) -> Result<(), Failure> {
+pub fn new(file: &NewFile, registry: &Registry) -> Result<(), Failure> {
     let (NewFile::Scenario(args) | NewFile::Config { args, .. } | NewFile::Sweep { args, .. }) =
         file;
     Answer::give(args.json, |answer| match file {
@@ -33,7 +34,7 @@ pub fn new(file: &NewFile) -> Result<(), Failure> {
             Ok(())
         }
         NewFile::Config { scenario, .. } => {
-            let text = |out: &Path| of_scenario(CONFIG, out, scenario.as_deref());
+            let text = |out: &Path| of_scenario(CONFIG, out, scenario.as_deref(), registry);
             let out = write(args, "config.toml", text, answer)?;
             answer.say(format_args!(
                 "wrote {0}; next: adslam tables {0} --out results",
@@ -42,7 +43,7 @@ pub fn new(file: &NewFile) -> Result<(), Failure> {
             Ok(())
         }
         NewFile::Sweep { scenario, .. } => {
-            let text = |out: &Path| of_scenario(SWEEP, out, scenario.as_deref());
+            let text = |out: &Path| of_scenario(SWEEP, out, scenario.as_deref(), registry);
             let out = write(args, "sweep.toml", text, answer)?;
             answer.say(format_args!(
                 "wrote {0}; next: adslam sweep {0} --out results",
@@ -76,7 +77,7 @@ fn write(
 }
 
 /// The text at `out` that names a scenario or, if none is given, the `scenario.toml` beside it.
-fn of_scenario(template: &str, out: &Path, scenario: Option<&Path>) -> Result<String, InputError> {
+fn of_scenario(template: &str, out: &Path, scenario: Option<&Path>, registry: &Registry) -> Result<String, InputError> {
     let folder = folder_of(out);
     let beside = out.with_file_name("scenario.toml");
     let path = scenario.unwrap_or(&beside);
@@ -87,7 +88,7 @@ fn of_scenario(template: &str, out: &Path, scenario: Option<&Path>) -> Result<St
             path.display()
         )));
     }
-    Scenario::load(path)?;
+    Scenario::load_with(path, registry)?;
     let name = relative(path, folder);
     let name = name.to_str().ok_or_else(|| {
         let message = format!("{} is no Unicode text", path.display());

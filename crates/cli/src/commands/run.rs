@@ -2,6 +2,7 @@
 
 use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::run::{PAGE_FILE, RunRecorder, RunReport, simulate};
+use adslam_scenario::registry::Registry;
 use adslam_names::Named;
 use adslam_record::Observer;
 use adslam_record::log::LogRecorder;
@@ -17,12 +18,12 @@ use crate::{RunArgs, progress};
 ///
 /// # Errors
 /// Bad input, a failure of the run, or an interruption.
-pub fn run(args: &RunArgs, interrupt: &Interrupt) -> Result<(), Failure> {
-    Answer::give(args.json, |answer| run_once(args, interrupt, answer))
+pub fn run(args: &RunArgs, registry: &Registry, interrupt: &Interrupt) -> Result<(), Failure> {
+    Answer::give(args.json, |answer| run_once(args, registry, interrupt, answer))
 }
 
-fn run_once(args: &RunArgs, interrupt: &Interrupt, answer: &mut Answer) -> Result<(), Failure> {
-    let mut scenario = Scenario::load(&args.scenario)?;
+fn run_once(args: &RunArgs, registry: &Registry, interrupt: &Interrupt, answer: &mut Answer) -> Result<(), Failure> {
+    let mut scenario = Scenario::load_with(&args.scenario, registry)?;
     if let Some(mesh) = &args.mesh {
         scenario = scenario.with_mesh(mesh);
     }

@@ -13,16 +13,17 @@ use crate::paths::folder_of;
 ///
 /// # Errors
 /// Bad input, runs that failed, files that cannot be written, or an interruption.
-pub fn sweep(args: &SweepArgs, interrupt: &Interrupt) -> Result<(), Failure> {
-    Answer::give(args.json, |answer| run_missing(args, interrupt, answer))
+pub fn sweep(args: &SweepArgs, registry: &Registry, interrupt: &Interrupt) -> Result<(), Failure> {
+    Answer::give(args.json, |answer| run_missing(args, registry, interrupt, answer))
 }
 
 fn run_missing(
     args: &SweepArgs,
+    registry: &Registry,
     interrupt: &Interrupt,
     answer: &mut Answer,
 ) -> Result<(), Failure> {
-    let plan = SweepPlan::load(&args.sweep, args.runs)?;
+    let plan = SweepPlan::load_with(&args.sweep, args.runs, registry)?;
     answer.warn(&plan.warnings());
     let mut study = plan.open(&args.out, other_builds(args.accept_build))?;
     answer.set("title", &plan.sweep().title);

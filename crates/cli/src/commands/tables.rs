@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::study::SummaryRecord;
 use adslam_experiment::tables::{TablePlan, Tables, json, markdown, terminal};
+use adslam_scenario::registry::Registry;
 use adslam_record::AtomicFile;
 
 use super::study::{finish, other_builds, tell_if_partial};
@@ -20,17 +21,18 @@ use crate::paths::{folder_of, shown};
 ///
 /// # Errors
 /// Bad input, runs that failed, files that cannot be written, or an interruption.
-pub fn tables(args: &TablesArgs, interrupt: &Interrupt) -> Result<(), Failure> {
-    Answer::give(args.json, |answer| run_missing(args, interrupt, answer))
+pub fn tables(args: &TablesArgs, registry: &Registry, interrupt: &Interrupt) -> Result<(), Failure> {
+    Answer::give(args.json, |answer| run_missing(args, registry, interrupt, answer))
 }
 
 fn run_missing(
     args: &TablesArgs,
+    registry: &Registry,
     interrupt: &Interrupt,
     answer: &mut Answer,
 ) -> Result<(), Failure> {
     let out = args.folder();
-    let plan = TablePlan::load(&args.config, &args.selection.selection())?;
+    let plan = TablePlan::load_with(&args.config, &args.selection.selection(), registry)?;
     let mut study = plan.open(&out, other_builds(args.accept_build))?;
     answer.set("title", plan.title());
     let end = finish(&mut study, &out, answer, interrupt, SummaryRecord::of_unit)?;

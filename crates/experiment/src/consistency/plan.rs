@@ -5,6 +5,7 @@ use std::path::Path;
 use adslam_diagnostics::{Failure, InputError, Interrupt};
 use adslam_names::{EstimatorName, PlannerName};
 use adslam_scenario::config::{Config, ExperimentPlan, Selection};
+use adslam_scenario::registry::Registry;
 use adslam_setup::Setup;
 
 use super::ConsistencyRecord;
@@ -47,13 +48,26 @@ impl ConsistencyPlan {
         selection: &Selection,
         estimators: &[EstimatorName],
     ) -> Result<Self, InputError> {
+        Self::load_with(path, selection, estimators, &Registry::standard())
+    }
+
+    /// The same for a program with planners of its own.
+    ///
+    /// # Errors
+    /// As [`ConsistencyPlan::load`].
+    pub fn load_with(
+        path: &Path,
+        selection: &Selection,
+        estimators: &[EstimatorName],
+        registry: &Registry,
+    ) -> Result<Self, InputError> {
         let mut each_once: Vec<EstimatorName> = Vec::new();
         for estimator in estimators {
             if !each_once.contains(estimator) {
                 each_once.push(*estimator);
             }
         }
-        let config = Config::load(path)?.select_times(selection, each_once.len())?;
+        let config = Config::load_with(path, registry)?.select_times(selection, each_once.len())?;
         let mut points = Vec::new();
         let setups = Setup::of_all(config.experiments.iter().map(|plan| &plan.scenario))?;
         for (plan, setup) in config.experiments.iter().zip(setups) {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use adslam_diagnostics::Failure;
-use adslam_names::{EstimatorName, Named, PlannerName};
+use adslam_names::{EstimatorName, Named, PlannerLook, PlannerName};
 use adslam_record::{AtomicFile, Column, ColumnKind, TableFile};
 use adslam_simulation::RunSummary;
 use rayon::prelude::*;
@@ -39,8 +39,10 @@ pub struct ConsistencyCell {
     /// The estimator.
     pub estimator: EstimatorName,
     /// The planner.
-    #[serde(serialize_with = "as_str")]
     pub planner: PlannerName,
+    /// What it looks like, where its name does not say it.
+    #[serde(skip)]
+    pub look: Option<PlannerLook>,
     /// Runs that were finished.
     pub runs: usize,
     /// Mean over runs and steps of eq. (11), radians and cm together; absent, as the others, without runs.
@@ -56,11 +58,6 @@ pub struct ConsistencyCell {
     pub nees_of_features: Vec<Option<f64>>,
     /// What each measure says, of those that were taken.
     pub judgements: Vec<Judgement>,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it")]
-fn as_str<S: serde::Serializer>(planner: &PlannerName, to: S) -> Result<S::Ok, S::Error> {
-    to.serialize_str(planner.as_str())
 }
 
 impl ConsistencyCell {
@@ -81,6 +78,7 @@ impl ConsistencyCell {
             label: label.to_owned(),
             estimator,
             planner,
+            look: None,
             runs: runs.len(),
             pose_error: mean(|run| run.pose_error_mean),
             drift_floor: mean(|run| run.drift_floor_mean),
@@ -126,7 +124,11 @@ impl ConsistencyResults {
         let cells = cells.into_par_iter().map(|(cell, records)| {
             let done: Vec<&ConsistencyRecord> = records.iter().flatten().collect();
             let label = &cell.point.plan.label;
-            ConsistencyCell::of(label, cell.point.estimator, cell.planner, &done)
+            let registry = cell.point.setup.scenario.registry();
+            ConsistencyCell {
+                look: registry.look(cell.planner),
+                ..ConsistencyCell::of(label, cell.point.estimator, cell.planner, &done)
+            }
         });
         Self {
             title: plan.title.clone(),

@@ -93,7 +93,7 @@ fn a_feature_that_is_wrong_is_counted() {
             run.nees_of_features = vec![(90.0, 30), (90.0 * wrong, 30)];
         }
         let done: Vec<&ConsistencyRecord> = runs.iter().collect();
-        let planner = PlannerName::Local;
+        let planner = PlannerName::LOCAL;
         ConsistencyCell::of("a", EstimatorName::EulerEkf, planner, &done)
     };
     assert_eq!(results(1.0).features_outside(), 0);

@@ -32,8 +32,8 @@ fn computed() -> Result<u32, Failure> {
     let mut digest = Digest(Hasher::new());
     for &estimator in EstimatorName::ALL {
         let setup = setup.with_estimator(estimator);
-        for planner in PlannerName::ALL {
-            if estimator == EstimatorName::default() || planner == PlannerName::Local {
+        for planner in PlannerName::PAPER {
+            if estimator == EstimatorName::default() || planner == PlannerName::LOCAL {
                 simulate(&setup, planner, 1, &Interrupt::new(), &mut digest)?;
             }
         }

@@ -60,7 +60,8 @@ impl Batch<'_> {
                 &mut NoObserver,
             );
         }
-        let mut recorder = HistoryRecorder::new(&self.setup.model, self.planner, self.seed);
+        let mut recorder = HistoryRecorder::new(&self.setup.model, self.planner, self.seed)
+            .with_look(self.setup.scenario.registry().look(self.planner));
         let outcome = simulate(
             self.setup,
             self.planner,

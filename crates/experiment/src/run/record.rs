@@ -65,7 +65,8 @@ impl RunRecorder {
         let trajectory =
             |name: &str| TumFile::create(&path(name), TumTime::Step, LengthUnit::Cm, unit);
         Ok(Self {
-            history: HistoryRecorder::new(&setup.model, planner, seed),
+            history: HistoryRecorder::new(&setup.model, planner, seed)
+                .with_look(setup.scenario.registry().look(planner)),
             summary: AtomicFile::create(&path("summary.json"))?,
             scenario: AtomicFile::with_content(&path(SCENARIO_FILE), scenario.as_bytes())?,
             steps: StepsFile::create(&path("steps.csv"), feature_count)?,

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use adslam_diagnostics::{Failure, InputError};
 use adslam_scenario::config::checked_runs;
+use adslam_scenario::registry::Registry;
 use adslam_scenario::sweep::Sweep;
 use adslam_setup::Setup;
 
@@ -24,7 +25,19 @@ impl SweepPlan {
     /// # Errors
     /// Anything wrong with a file, or too many runs.
     pub fn load(path: &Path, runs: Option<usize>) -> Result<Self, InputError> {
-        Self::new(Sweep::load(path)?, runs)
+        Self::load_with(path, runs, &Registry::standard())
+    }
+
+    /// The same for a program with planners of its own.
+    ///
+    /// # Errors
+    /// As [`SweepPlan::load`].
+    pub fn load_with(
+        path: &Path,
+        runs: Option<usize>,
+        registry: &Registry,
+    ) -> Result<Self, InputError> {
+        Self::new(Sweep::load_with(path, registry)?, runs)
     }
 
     /// Builds the points of a sweep; with another number of runs, if one is given.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use adslam_diagnostics::{Failure, InputError, Interrupt};
 use adslam_scenario::config::{Config, ExperimentPlan, Selection};
+use adslam_scenario::registry::Registry;
 use adslam_setup::Setup;
 use adslam_simulation::RunSummary;
 
@@ -31,7 +32,19 @@ impl TablePlan {
     /// # Errors
     /// Anything wrong with a file, an unknown label, or no runs to do.
     pub fn load(path: &Path, selection: &Selection) -> Result<Self, InputError> {
-        Self::new(Config::load(path)?, selection)
+        Self::load_with(path, selection, &Registry::standard())
+    }
+
+    /// The same for a program with planners of its own.
+    ///
+    /// # Errors
+    /// As [`TablePlan::load`].
+    pub fn load_with(
+        path: &Path,
+        selection: &Selection,
+        registry: &Registry,
+    ) -> Result<Self, InputError> {
+        Self::new(Config::load_with(path, registry)?, selection)
     }
 
     /// Builds what is selected of a configuration.
@@ -150,6 +163,7 @@ impl TablePlan {
                 of_runs.extend(done.clone().map(|record| record.warnings.as_slice()));
                 PlannerRuns {
                     planner,
+                    look: plan.scenario.registry().look(planner),
                     runs: done.map(|record| record.summary.clone()).collect(),
                 }
             });

@@ -1,8 +1,6 @@
 //! Numbers and lists as a history stores them: few characters, no detail that a drawing shows lost.
 
-use adslam_names::{Named, PlannerName};
 use nalgebra::{Matrix3, Vector3};
-use serde::Serializer;
 
 /// `value` to so many decimals. Numbers so large that they have no decimals stay as they are.
 pub(super) fn decimals(value: f64, count: i32) -> f64 {
@@ -52,11 +50,6 @@ pub(super) fn coarse(v: &Vector3<f64>) -> [f64; 3] {
 pub(super) fn covariance(m: &Matrix3<f64>) -> [f64; 6] {
     let places = 4 - magnitude(m.amax());
     [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|at| decimals(m[at], places))
-}
-
-/// A planner by its name.
-pub(super) fn planner<S: Serializer>(name: &PlannerName, to: S) -> Result<S::Ok, S::Error> {
-    to.serialize_str(name.as_str())
 }
 
 #[cfg(test)]

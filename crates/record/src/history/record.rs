@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use adslam_diagnostics::Failure;
 use adslam_models::{Control, FeatureId, Pose};
-use adslam_names::PlannerName;
+use adslam_names::{PlannerLook, PlannerName};
 use adslam_simulation::{EpisodeModel, StepView};
 use nalgebra::{Point3, Vector3};
 
@@ -25,7 +25,7 @@ pub struct HistoryRecorder {
 }
 
 impl HistoryRecorder {
-    /// Ready for the run of `planner` with `seed` that [`simulate`](adslam_experiment::run::simulate) is about
+    /// Ready for the run of `planner` with `seed` that an [`Episode`](adslam_simulation::Episode) is about
     /// to do.
     #[must_use]
     pub fn new(model: &EpisodeModel, planner: PlannerName, seed: u64) -> Self {
@@ -38,6 +38,7 @@ impl HistoryRecorder {
                 version: HISTORY_VERSION,
                 scenario: model.name.clone(),
                 planner,
+                planner_look: None,
                 seed,
                 sensor_min_cm: planning.sensor.min_range,
                 sensor_max_cm: planning.sensor.max_range,
@@ -51,6 +52,13 @@ impl HistoryRecorder {
             base: Vector3::zeros(),
             seen: vec![false; model.world.rest.len()],
         }
+    }
+
+    /// Shown as this planner looks, where its name does not say it.
+    #[must_use]
+    pub fn with_look(mut self, look: Option<PlannerLook>) -> Self {
+        self.history.planner_look = look;
+        self
     }
 
     /// What has been seen so far.

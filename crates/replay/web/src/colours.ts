@@ -2,6 +2,8 @@
 
 import { Color } from "three";
 
+import type { History } from "./history";
+
 const METHODS: Record<string, string> = {
   predetermined: "#999999",
   local: "#D55E00",
@@ -9,9 +11,15 @@ const METHODS: Record<string, string> = {
   combined: "#009E73",
 };
 
-/** The colour of a planner, the same everywhere in adslam. */
-export function methodColour(planner: string): string {
-  return METHODS[planner] ?? "#CC79A7";
+/** The colour of a run's planner, the same everywhere in adslam: its own, or that of its name. */
+export function methodColour(history: Pick<History, "planner" | "planner_look">): string {
+  const own = history.planner_look?.colour.map((part) => part.toString(16).padStart(2, "0"));
+  return own ? `#${own.join("")}` : (METHODS[history.planner] ?? "#CC79A7");
+}
+
+/** What a run's planner is called. */
+export function methodLabel(history: Pick<History, "planner" | "planner_look">): string {
+  return history.planner_look?.label ?? history.planner;
 }
 
 export interface Theme {

@@ -54,6 +54,8 @@ export interface DrawnMesh {
 export interface History {
   scenario: string;
   planner: string;
+  /** Absent where the name says it. */
+  planner_look?: { label: string; colour: number[] };
   seed: number;
   sensor_min_cm: number;
   sensor_max_cm: number;

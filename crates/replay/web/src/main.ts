@@ -25,7 +25,7 @@ function start(app: HTMLElement): void {
 
   document.body.dataset.theme = theme.name;
   const holders = histories.map((history) =>
-    h("section", { class: "view", style: `--c:${methodColour(history.planner)}` }),
+    h("section", { class: "view", style: `--c:${methodColour(history)}` }),
   );
   const charts = CURVES.map(
     (curve) => new Chart(curve, histories, player.count, (index) => player.seek(index)),

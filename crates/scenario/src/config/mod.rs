@@ -106,9 +106,17 @@ impl Config {
     /// When one of the files cannot be read or holds anything but what belongs there. A scenario's
     /// own fault is shown in the scenario's file, that of an override in the configuration.
     pub fn load(path: &Path) -> Result<Self, InputError> {
+        Self::load_with(path, &Registry::standard())
+    }
+
+    /// The same for a program with planners of its own.
+    ///
+    /// # Errors
+    /// As [`Config::load`].
+    pub fn load_with(path: &Path, registry: &Registry) -> Result<Self, InputError> {
         let document = Document::read(path)?;
         FileKind::Configuration.expect(&document)?;
-        Self::from_document(&document)
+        Self::from_document(&document, registry)
     }
 
     /// Reads and checks a configuration from `text`, as if it were the content of the file at `path`.
@@ -116,10 +124,10 @@ impl Config {
     /// # Errors
     /// As [`Config::load`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
-        Self::from_document(&Document::parse(text, path)?)
+        Self::from_document(&Document::parse(text, path)?, &Registry::standard())
     }
 
-    fn from_document(document: &Document) -> Result<Self, InputError> {
+    fn from_document(document: &Document, registry: &Registry) -> Result<Self, InputError> {
         let file: ConfigFile = document.deserialize()?;
         let count = file.experiments.len();
         if count > MOST_EXPERIMENTS {
@@ -132,7 +140,7 @@ impl Config {
             None => None,
             Some(path) => Some(
                 plan::reachable(document, "published", folder.join(path))
-                    .and_then(|path| Published::load(&path))?,
+                    .and_then(|path| Published::load_with(&path, registry))?,
             ),
         };
         let mut experiments: Vec<ExperimentPlan> = Vec::new();
@@ -141,6 +149,7 @@ impl Config {
                 document,
                 folder,
                 index,
+                registry,
             };
             let plan = place.plan(experiment, published.as_ref())?;
             if let Some(other) = experiments

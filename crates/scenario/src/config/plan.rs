@@ -8,6 +8,7 @@ use adslam_names::{PlannerName, nearest};
 
 use super::{Experiment, Published, PublishedScenario};
 use crate::Scenario;
+use crate::registry::Registry;
 use crate::values::Name;
 
 /// One experiment: a scenario, overrides applied, and the planners that run in it.
@@ -28,6 +29,7 @@ pub(super) struct Place<'a> {
     pub(super) document: &'a Document,
     pub(super) folder: &'a Path,
     pub(super) index: usize,
+    pub(super) registry: &'a Registry,
 }
 
 impl Place<'_> {
@@ -43,8 +45,8 @@ impl Place<'_> {
         let path = self.folder.join(&experiment.scenario);
         let path = reachable(self.document, &self.key("scenario"), path)?;
         let set = Layer::of_values(self.key("set"));
-        let scenario = Scenario::load(&path)?.overridden(self.document, vec![set])?;
-        each_once(self.document, &self.key("planners"), &experiment.planners)?;
+        let scenario = Scenario::load_with(&path, self.registry)?.overridden(self.document, vec![set])?;
+        each_once(self.document, &self.key("planners"), &experiment.planners, self.registry)?;
         let published = match &experiment.published {
             None => None,
             Some(name) => Some(self.published(name, published)?),
@@ -111,15 +113,17 @@ impl Place<'_> {
     }
 }
 
-/// Refuses a list of planners, at `key`, with one of them twice.
-pub fn each_once(
+/// Refuses a list of planners, at `key`, with one of them twice, or one that there is not.
+pub(crate) fn each_once(
     document: &Document,
     key: &str,
     planners: &[PlannerName],
+    registry: &Registry,
 ) -> Result<(), InputError> {
     for (second, planner) in planners.iter().enumerate() {
+        let place = format!("{key}[{second}]");
+        registry.check(document, &place, *planner)?;
         if planners[..second].contains(planner) {
-            let place = format!("{key}[{second}]");
             return Err(document
                 .error_at(&place, format!("the planner {planner} is listed twice"))
                 .with_help("name each planner once; for more runs raise `runs`"));

@@ -12,6 +12,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
 
 use crate::FileKind;
+use crate::registry::Registry;
 use crate::values::{Count, List, Name, NonNegative};
 
 /// Published results, to print beside our own. Unknown keys are errors.
@@ -109,9 +110,17 @@ impl Published {
     /// # Errors
     /// When it cannot be read or holds anything else; the error points at the place.
     pub fn load(path: &Path) -> Result<Self, InputError> {
+        Self::load_with(path, &Registry::standard())
+    }
+
+    /// The same for a program with planners of its own.
+    ///
+    /// # Errors
+    /// As [`Published::load`].
+    pub fn load_with(path: &Path, registry: &Registry) -> Result<Self, InputError> {
         let document = Document::read(path)?;
         FileKind::Published.expect(&document)?;
-        Self::from_document(&document)
+        Self::from_document(&document, registry)
     }
 
     /// Reads and checks published results from `text`, as if it were the content of the file at
@@ -120,13 +129,15 @@ impl Published {
     /// # Errors
     /// As [`Published::load`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
-        Self::from_document(&Document::parse(text, path)?)
+        Self::from_document(&Document::parse(text, path)?, &Registry::standard())
     }
 
-    fn from_document(document: &Document) -> Result<Self, InputError> {
+    fn from_document(document: &Document, registry: &Registry) -> Result<Self, InputError> {
         let published: Self = document.deserialize()?;
         for (scenario, tables) in &published.tables {
             for (planner, column) in &tables.planners {
+                let key = format!("tables.{scenario}.planners.{planner}");
+                registry.check(document, &key, *planner)?;
                 let (observed, steps) = (column.observed.len(), column.steps.len());
                 if observed != steps {
                     // Names may hold dots, which a path cannot; the table is near enough then.

@@ -7,6 +7,7 @@ use adslam_documents::root_schema;
 use serde_json::Value;
 
 use crate::config::{ConfigFile, Published};
+use crate::registry::Registry;
 use crate::sweep::SweepFile;
 use crate::{FileKind, Scenario};
 
@@ -18,13 +19,15 @@ pub use overrides::{lists_of_overrides, overrides};
 /// value. What several keys must agree on, and what a file refers to, is beyond it: only reading
 /// the file tells.
 #[must_use]
-pub fn json_schema(kind: FileKind) -> Value {
-    match kind {
+pub fn json_schema(kind: FileKind, registry: &Registry) -> Value {
+    let mut schema = match kind {
         FileKind::Scenario => root_schema::<Scenario>(),
         FileKind::Configuration => root_schema::<ConfigFile>(),
         FileKind::Published => root_schema::<Published>(),
         FileKind::Sweep => root_schema::<SweepFile>(),
-    }
+    };
+    registry.complete(&mut schema);
+    schema
 }
 
 #[cfg(test)]
@@ -33,7 +36,7 @@ mod tests {
 
     #[test]
     fn ranges_defaults_and_what_must_be_there_are_those_of_the_reader() {
-        let schema = json_schema(FileKind::Scenario);
+        let schema = json_schema(FileKind::Scenario, &Registry::standard());
         let phantom = &schema["definitions"]["Phantom"]["properties"];
         assert_eq!(phantom["features"]["minimum"], 4);
         assert_eq!(phantom["features"]["maximum"], 2000);
@@ -48,7 +51,7 @@ mod tests {
 
     #[test]
     fn an_override_has_the_schema_of_the_key_it_sets() {
-        let schema = json_schema(FileKind::Configuration);
+        let schema = json_schema(FileKind::Configuration, &Registry::standard());
         let set = &schema["definitions"]["Experiment"]["properties"]["set"];
         let sigma = &set["properties"]["noise.rotation_sigma_rad"];
         assert_eq!(sigma["minimum"], 0.0);
@@ -63,7 +66,7 @@ mod tests {
 
     #[test]
     fn a_grid_has_lists_of_what_a_key_may_be() {
-        let schema = json_schema(FileKind::Sweep);
+        let schema = json_schema(FileKind::Sweep, &Registry::standard());
         let sigma = &schema["properties"]["grid"]["properties"]["noise.rotation_sigma_rad"];
         assert_eq!(sigma["items"]["minimum"], 0.0);
         assert_eq!(
@@ -79,7 +82,7 @@ mod tests {
 
     #[test]
     fn choices_are_told_apart_by_their_keys() {
-        let definitions = &json_schema(FileKind::Scenario)["definitions"];
+        let definitions = &json_schema(FileKind::Scenario, &Registry::standard())["definitions"];
         let object = &definitions["Object"];
         assert_eq!(object["maxProperties"], 1);
         assert!(object["properties"]["phantom"]["description"].is_string());
@@ -93,7 +96,7 @@ mod tests {
     #[test]
     fn nothing_is_null_which_toml_has_not() {
         for kind in FileKind::ALL {
-            let text = json_schema(kind).to_string();
+            let text = json_schema(kind, &Registry::standard()).to_string();
             assert!(!text.contains("null"), "{text}");
         }
     }

@@ -12,6 +12,7 @@ use serde_json::{Map, Value};
 
 use super::places::{Place, places, refuse_varied_constants, varied};
 use crate::config::{MOST_RUNS_IN_ALL, Runs, each_once, first_seed, reachable};
+use crate::registry::Registry;
 use crate::values::{List, Name, Seed};
 use crate::{FileKind, Scenario};
 
@@ -110,9 +111,17 @@ impl Sweep {
     /// when there is too much to run. A scenario's own fault is shown in the scenario's file, that of a point in
     /// the sweep.
     pub fn load(path: &Path) -> Result<Self, InputError> {
+        Self::load_with(path, &Registry::standard())
+    }
+
+    /// The same for a program with planners of its own.
+    ///
+    /// # Errors
+    /// As [`Sweep::load`].
+    pub fn load_with(path: &Path, registry: &Registry) -> Result<Self, InputError> {
         let document = Document::read(path)?;
         FileKind::Sweep.expect(&document)?;
-        Self::from_document(&document)
+        Self::from_document(&document, registry)
     }
 
     /// Reads and checks a sweep from `text`, as if it were the content of the file at `path`.
@@ -120,15 +129,15 @@ impl Sweep {
     /// # Errors
     /// As [`Sweep::load`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, InputError> {
-        Self::from_document(&Document::parse(text, path)?)
+        Self::from_document(&Document::parse(text, path)?, &Registry::standard())
     }
 
-    fn from_document(document: &Document) -> Result<Self, InputError> {
+    fn from_document(document: &Document, registry: &Registry) -> Result<Self, InputError> {
         let file: SweepFile = document.deserialize()?;
-        each_once(document, "planners", &file.planners)?;
+        each_once(document, "planners", &file.planners, registry)?;
         let folder = document.path().parent().unwrap_or(Path::new(""));
         let scenario = reachable(document, "scenario", folder.join(&file.scenario))
-            .and_then(|path| Scenario::load(&path))?;
+            .and_then(|path| Scenario::load_with(&path, registry))?;
         let grid = document.lists("grid")?;
         refuse_varied_constants(document, &grid)?;
         let places = places(document, &grid, &file.points)?;

@@ -44,9 +44,9 @@ fn only_what_is_missing_is_done() {
     let mut more = of_points(&all, 6);
     for point in &mut more.points {
         point.planners = &[
-            PlannerName::Combined,
-            PlannerName::Global,
-            PlannerName::Local,
+            PlannerName::COMBINED,
+            PlannerName::GLOBAL,
+            PlannerName::LOCAL,
         ];
     }
     let seeds: Vec<u64> = more.units(&[1; 4]).iter().map(|unit| unit.seed).collect();
@@ -84,7 +84,7 @@ fn a_study_does_not_shrink() {
     work(folder.path(), &of_points(&[&three, &five], 20));
     let mut other = of_points(&[&four, &three], 10);
     for point in &mut other.points {
-        point.planners = &[PlannerName::Local];
+        point.planners = &[PlannerName::LOCAL];
     }
     let said = refused(folder.path(), &other).message().to_owned();
     let expected = "holds another study: seeds 1–20 there and 1–10 here; planners local, global there and local here; \

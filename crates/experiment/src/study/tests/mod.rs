@@ -45,7 +45,7 @@ fn plan(setup: &Setup, runs: usize) -> StudyPlan<'_> {
 
 /// Two planners at as many seeds at each of several points.
 fn of_points<'a>(setups: &[&'a Setup], runs: usize) -> StudyPlan<'a> {
-    const PLANNERS: &[PlannerName] = &[PlannerName::Local, PlannerName::Global];
+    const PLANNERS: &[PlannerName] = &[PlannerName::LOCAL, PlannerName::GLOBAL];
     let points = setups.iter().map(|&setup| StudyPoint {
         setup,
         planners: PLANNERS,
@@ -137,7 +137,7 @@ fn what_fails_is_told_and_tried_again() {
     let (folder, setup) = (tempfile::tempdir().unwrap(), setup());
     let mut study = open(folder.path(), &plan(&setup, 2)).unwrap();
     let end = study.finish(&Interrupt::new(), &|| (), |unit, _| {
-        if unit.planner == PlannerName::Local {
+        if unit.planner == PlannerName::LOCAL {
             let run = format!("polygon, seed {}", unit.seed);
             let reason = "the estimate is not finite";
             return Err(Failure::Simulation {

@@ -81,7 +81,7 @@ export class Stage {
     }
     const { history } = this;
     const unit = history.sensor_max_cm / 10;
-    const context = { history, theme, unit, colour: methodColour(history.planner) };
+    const context = { history, theme, unit, colour: methodColour(history) };
     this.robot = new RobotPart(context);
     this.candidates = new CandidatesPart(context);
     this.surface = new SurfacePart(context);

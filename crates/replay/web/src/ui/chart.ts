@@ -36,7 +36,7 @@ export class Chart {
   ) {
     const same = histories.length > 1 && histories[0].planner === histories[1].planner;
     this.#lines = histories.map((history, i) => ({
-      colour: methodColour(history.planner),
+      colour: methodColour(history),
       dashed: same && i > 0,
       values: history.steps.map((step, n) => curve.value(step, history.steps[n + 1])),
       band: curve.band ? history.steps.map(curve.band) : [],

@@ -1,6 +1,6 @@
 // What a view says about its run at this step, and the scale of the candidates' colours.
 
-import { methodColour, VIRIDIS_CSS } from "../colours";
+import { methodColour, methodLabel, VIRIDIS_CSS } from "../colours";
 import { decisionAt, type History, stepAt } from "../history";
 import { goalAt, traceRange } from "../scene/plan";
 import { h, short } from "./dom";
@@ -14,7 +14,7 @@ export class Hud {
   readonly #worst = h("span");
 
   constructor(private readonly history: History) {
-    const colour = methodColour(history.planner);
+    const colour = methodColour(history);
     this.#scale = h(
       "div",
       { class: "scale", hidden: true },
@@ -33,7 +33,7 @@ export class Hud {
           "h2",
           { style: `--c:${colour}` },
           h("span", { class: "dot" }),
-          history.planner,
+          methodLabel(history),
           h("small", {}, ` ${history.scenario}, seed ${history.seed}`),
         ),
         this.#facts,

@@ -20,7 +20,7 @@ fn the_shipped_configurations_load() {
         assert_eq!(config.experiments.len(), experiments, "{name}");
         assert_eq!((config.runs, config.first_seed), (5, 1), "{name}");
         for plan in &config.experiments {
-            assert_eq!(plan.planners, PlannerName::ALL, "{name}");
+            assert_eq!(plan.planners, PlannerName::PAPER, "{name}");
             assert!(plan.published.is_some(), "{name}");
         }
     }
@@ -75,7 +75,7 @@ fn the_published_tables_are_the_papers() {
             (&*tables.coverage_table, &*tables.error_table),
             (coverage, errors)
         );
-        for (planner, expected) in PlannerName::ALL.into_iter().zip(means) {
+        for (planner, expected) in PlannerName::PAPER.into_iter().zip(means) {
             let column = &tables.planners[&planner];
             assert_eq!(column.observed.len(), 5);
             assert!(
@@ -87,7 +87,7 @@ fn the_published_tables_are_the_papers() {
     }
     let polygon = &published.tables[&Name::new("polygon").unwrap()];
     assert!(
-        polygon.planners[&PlannerName::Local]
+        polygon.planners[&PlannerName::LOCAL]
             .steps
             .iter()
             .all(|steps| steps.0.is_none())
