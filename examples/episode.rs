@@ -10,7 +10,9 @@ use adslam_setup::Setup;
 use adslam_simulation::Episode;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let scenario = std::env::args().nth(1).ok_or("give the path of a scenario")?;
+    let scenario = std::env::args()
+        .nth(1)
+        .ok_or("give the path of a scenario")?;
     let setup = Setup::new(&Scenario::load(Path::new(&scenario))?)?;
     let mut episode = Episode::start(&setup.model, 1)?;
     let actions = setup.model.planning.actions.controls();
@@ -20,6 +22,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         episode.take(&actions[step * 7919 % actions.len()])?;
     }
     let summary = episode.summary();
-    println!("observed {} feature times, mean pose error {:.3}", summary.observed, summary.pose_error_mean);
+    println!(
+        "observed {} feature times, mean pose error {:.3}",
+        summary.observed, summary.pose_error_mean
+    );
     Ok(())
 }

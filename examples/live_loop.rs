@@ -19,7 +19,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         let belief = agent.belief();
         let sigma = belief.covariance.pose().diagonal().map(f64::sqrt);
         let pose = belief.state.pose.to_vector();
-        writeln!(out, "{}", json!({ "step": step, "pose": pose.as_slice(), "sigma": sigma.as_slice() }))?;
+        writeln!(
+            out,
+            "{}",
+            json!({ "step": step, "pose": pose.as_slice(), "sigma": sigma.as_slice() })
+        )?;
         out.flush()?;
     }
     Ok(())

@@ -27,7 +27,10 @@ impl Planner for Curious {
         };
         let features = state.features.iter().enumerate();
         let worths = features.map(|(i, p)| (worth(i, (p - state.pose.position).norm()), p));
-        let (_, goal) = worths.max_by(|a, b| a.0.total_cmp(&b.0)).ok_or("there are no features").map_err(Box::from)?;
+        let (_, goal) = worths
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .ok_or("there are no features")
+            .map_err(Box::from)?;
         safe.find(situation, surfaces.place(situation)?)?;
         safe.keep_nearest(goal, 1);
         let chosen = safe.candidates().first().ok_or(PlanningError::NoActions)?;
@@ -37,8 +40,16 @@ impl Planner for Curious {
 
 fn main() -> Result<std::process::ExitCode, Box<dyn std::error::Error>> {
     let entry = PlannerEntry::with_keys(PlannerName::literal("curious"), |keys: Keys, _| {
-        Ok(Box::new(Curious(keys, ObjectSurfaces::default(), SafeActions::default())))
+        Ok(Box::new(Curious(
+            keys,
+            ObjectSurfaces::default(),
+            SafeActions::default(),
+        )))
     });
-    let entry = entry.shown_as("Curious", [0xe6, 0x9f, 0x00]).that("Goes to where the feature is of which it knows least.");
-    Ok(adslam_cli::main_with(&Registry::standard().with_planner(entry)?))
+    let entry = entry
+        .shown_as("Curious", [0xe6, 0x9f, 0x00])
+        .that("Goes to where the feature is of which it knows least.");
+    Ok(adslam_cli::main_with(
+        &Registry::standard().with_planner(entry)?,
+    ))
 }

@@ -14,12 +14,28 @@ use adslam_record::log::{FilterChoice, TailPolicy, filter_log};
 fn main() -> Result<(), Box<dyn Error>> {
     let path = PathBuf::from(std::env::args().nth(1).ok_or("give the path of a log")?);
     for &estimator in EstimatorName::ALL {
-        let choice = FilterChoice { estimator: Some(estimator), ..FilterChoice::default() };
+        let choice = FilterChoice {
+            estimator: Some(estimator),
+            ..FilterChoice::default()
+        };
         let log = BufReader::new(File::open(&path)?);
         let each = &mut |_: &_| Ok(());
-        let summary = filter_log(log, &path, choice, TailPolicy::Refuse, &Interrupt::new(), each)?;
-        let error = summary.numbers.errors.map_or(f64::NAN, |errors| errors.relative_pose_error_mean);
-        println!("{estimator:<20} {} steps, mean object-relative pose error {error:.4}", summary.steps);
+        let summary = filter_log(
+            log,
+            &path,
+            choice,
+            TailPolicy::Refuse,
+            &Interrupt::new(),
+            each,
+        )?;
+        let error = summary
+            .numbers
+            .errors
+            .map_or(f64::NAN, |errors| errors.relative_pose_error_mean);
+        println!(
+            "{estimator:<20} {} steps, mean object-relative pose error {error:.4}",
+            summary.steps
+        );
     }
     Ok(())
 }

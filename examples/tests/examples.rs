@@ -19,7 +19,12 @@ fn text(bytes: &[u8]) -> String {
 
 /// What the example prints, started in the folder `at`.
 fn printed(command: &mut Command, at: &Path) -> String {
-    let output = command.current_dir(at).assert().success().get_output().clone();
+    let output = command
+        .current_dir(at)
+        .assert()
+        .success()
+        .get_output()
+        .clone();
     text(&output.stdout)
 }
 
@@ -37,18 +42,33 @@ fn a_planner_of_ones_own_enters_runs_tables_and_replays() {
     let at = folder.path();
     let command = || Command::new(env!("CARGO_BIN_EXE_own_planner"));
     short_scenario(at, "\n[planners.curious]\nlaziness_per_cm = 0.5\n");
-    let run = ["run", "short.toml", "--planner", "curious", "--out", "run", "--html"];
+    let run = [
+        "run",
+        "short.toml",
+        "--planner",
+        "curious",
+        "--out",
+        "run",
+        "--html",
+    ];
     assert!(printed(command().args(run), at).contains("curious, seed 1"));
-    let history: Value = serde_json::from_slice(&fs::read(at.join("run/history.json")).unwrap()).unwrap();
+    let history: Value =
+        serde_json::from_slice(&fs::read(at.join("run/history.json")).unwrap()).unwrap();
     assert_eq!(history["planner"], "curious");
     assert_eq!(history["planner_look"]["label"], "Curious");
     let page = fs::read_to_string(at.join("run/replay.html")).unwrap();
     assert!(page.contains("polygon, Curious, seed 1"));
     let as_run = fs::read_to_string(at.join("run/scenario.toml")).unwrap();
-    assert!(as_run.contains("[planners.curious]\nlaziness_per_cm = 0.5"), "{as_run}");
+    assert!(
+        as_run.contains("[planners.curious]\nlaziness_per_cm = 0.5"),
+        "{as_run}"
+    );
     let config = "title = \"own\"\n[[experiments]]\nscenario = \"short.toml\"\nplanners = [\"curious\", \"local\"]\n";
     fs::write(at.join("own.toml"), config).unwrap();
-    printed(command().args(["tables", "own.toml", "--runs", "2", "--out", "tables"]), at);
+    printed(
+        command().args(["tables", "own.toml", "--runs", "2", "--out", "tables"]),
+        at,
+    );
     let tables = fs::read_to_string(at.join("tables/tables.md")).unwrap();
     assert!(tables.contains("curious"), "{tables}");
     let report = fs::read_to_string(at.join("tables/report.html")).unwrap();
@@ -91,16 +111,30 @@ fn a_live_loop_answers_every_step() {
     let log = File::open(repository("samples/polygon.log.jsonl")).unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_live_loop"));
     let said = printed(command.stdin(log), Path::new("."));
-    let lines: Vec<Value> = said.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-    let steps = fs::read_to_string(repository("samples/polygon.log.jsonl")).unwrap().lines().count() - 1;
+    let lines: Vec<Value> = said
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    let steps = fs::read_to_string(repository("samples/polygon.log.jsonl"))
+        .unwrap()
+        .lines()
+        .count()
+        - 1;
     assert_eq!(lines.len(), steps);
-    assert!(lines.iter().all(|line| line["sigma"][3].as_f64().unwrap() > 0.0));
+    assert!(
+        lines
+            .iter()
+            .all(|line| line["sigma"][3].as_f64().unwrap() > 0.0)
+    );
 }
 
 #[test]
 fn every_estimator_goes_through_a_recorded_log() {
     let mut command = Command::new(env!("CARGO_BIN_EXE_recorded_log"));
-    let said = printed(command.arg(repository("samples/polygon.log.jsonl")), Path::new("."));
+    let said = printed(
+        command.arg(repository("samples/polygon.log.jsonl")),
+        Path::new("."),
+    );
     assert_eq!(said.lines().count(), 3);
     assert!(said.contains("right_invariant_ekf"), "{said}");
 }

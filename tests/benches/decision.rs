@@ -104,7 +104,10 @@ impl Case {
     }
 
     fn moments(&self, planner: PlannerName) -> &[Moment] {
-        self.moments[planner as usize].get_or_init(|| {
+        let place = PlannerName::PAPER
+            .iter()
+            .position(|known| *known == planner);
+        self.moments[place.expect("one of the paper's")].get_or_init(|| {
             let mut recorder = Recorder {
                 setup: self.setup(),
                 moments: Vec::new(),

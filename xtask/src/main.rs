@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use adslam_cli::{SelectionArgs, TablesArgs, exit_code, stop_on_signals, tables};
-use clap::Parser;
-
+use adslam_scenario::registry::Registry;
 use bench_report::BenchReportArgs;
+use clap::Parser;
 use environment::Environment;
 use figures::FiguresArgs;
 
@@ -73,7 +73,7 @@ fn main() -> ExitCode {
                 html: true,
                 json: false,
             };
-            exit_code(tables(&args, interrupt))
+            exit_code(tables(&args, &Registry::standard(), interrupt))
         }
         Task::ReproduceFigures(args) => figures::reproduce(&args, interrupt),
         Task::BenchReport(args) => bench_report::report(&args),

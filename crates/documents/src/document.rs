@@ -162,7 +162,10 @@ impl Document {
         let span = error.span().unwrap_or(0..0);
         let (path, keys) = key_path::at_span(tables, &span);
         let place = Surroundings {
-            path: path.strip_prefix(root).unwrap_or(&path).trim_start_matches('.'),
+            path: path
+                .strip_prefix(root)
+                .unwrap_or(&path)
+                .trim_start_matches('.'),
             keys,
             advice: &Advice::of::<T>(),
         };

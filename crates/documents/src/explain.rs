@@ -1,8 +1,9 @@
 //! The words of serde and toml, put so that the author of a file knows what to write.
 
-use crate::Advice;
 use adslam_diagnostics::InputError;
 use adslam_names::nearest;
+
+use crate::Advice;
 
 /// An error message in three parts.
 #[derive(Debug, PartialEq, Eq)]

@@ -160,10 +160,7 @@ impl Column {
             .iter()
             .map(|p| p.runs.iter().filter_map(self.of_run).collect())
             .collect();
-        let names: Vec<String> = planners
-            .iter()
-            .map(|p| p.method.short_label())
-            .collect();
+        let names: Vec<String> = planners.iter().map(|p| p.method.short_label()).collect();
         let floor = self.floor.and_then(|floor| {
             let runs = planners.iter().flat_map(|p| p.runs);
             runs.map(floor).find(|floor| *floor > 0.0)

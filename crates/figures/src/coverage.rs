@@ -7,8 +7,8 @@ use crate::chart::Chart;
 use crate::error::FigureError;
 use crate::figure::{Figure, Frame};
 use crate::legend::Entry;
-use crate::methods::{below_legend, curve, entries, in_order, last_step, numbered, subject};
 use crate::method::Method;
+use crate::methods::{below_legend, curve, entries, in_order, last_step, numbered, subject};
 use crate::shape::{Look, Shape};
 use crate::style::{AXIS, Colour, FULL_WIDTH, Stroke};
 

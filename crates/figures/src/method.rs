@@ -44,7 +44,13 @@ impl Method {
             PlannerName::PREDETERMINED => "Pre".to_owned(),
             PlannerName::COMBINED => "Comb.".to_owned(),
             _ if self.look.label.chars().count() <= SHORT => self.look.label.clone(),
-            _ => self.look.label.chars().take(SHORT - 1).chain(['.']).collect(),
+            _ => self
+                .look
+                .label
+                .chars()
+                .take(SHORT - 1)
+                .chain(['.'])
+                .collect(),
         }
     }
 
@@ -84,7 +90,10 @@ mod tests {
     fn a_planner_of_ones_own_has_its_own_look() {
         let name = PlannerName::literal("frontier");
         let own = Method::new(name, Some(PlannerLook::new("Frontier based", [1, 2, 3])));
-        assert_eq!((own.label(), own.short_label().as_str()), ("Frontier based", "Fronti."));
+        assert_eq!(
+            (own.label(), own.short_label().as_str()),
+            ("Frontier based", "Fronti.")
+        );
         assert_eq!(own.colour(), Colour(1, 2, 3));
         assert_eq!(Method::new(name, None).label(), "frontier");
         assert_eq!(Method::new(PlannerName::LOCAL, None).short_label(), "Local");

@@ -54,7 +54,10 @@ pub(crate) fn drift_floor(history: &RunHistory, factor: f64) -> Shape<(f64, f64)
 
 /// An entry for each method that there is.
 pub(crate) fn entries(histories: &[&RunHistory]) -> Vec<Entry> {
-    let mut methods: Vec<Method> = histories.iter().map(|history| Method::of(history)).collect();
+    let mut methods: Vec<Method> = histories
+        .iter()
+        .map(|history| Method::of(history))
+        .collect();
     methods.dedup();
     let entry = |method: &Method| Entry::new(Look::Line(method.stroke()), method.label());
     methods.iter().map(entry).collect()

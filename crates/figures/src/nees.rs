@@ -7,8 +7,8 @@ use crate::chart::Chart;
 use crate::error::FigureError;
 use crate::figure::{Figure, Frame};
 use crate::legend::Entry;
-use crate::methods::{below_legend, curve, in_order, last_step, subject};
 use crate::method::Method;
+use crate::methods::{below_legend, curve, in_order, last_step, subject};
 use crate::shape::{Look, Shape};
 use crate::style::{AXIS, BAND, FULL_WIDTH, Stroke};
 

@@ -9,11 +9,11 @@ use crate::chart::{Chart, Margins};
 use crate::error::FigureError;
 use crate::figure::{Figure, Frame};
 use crate::legend::Entry;
-use crate::methods::{below_legend, drift_floor, in_order, last_step, numbered, subject};
 use crate::method::Method;
+use crate::methods::{below_legend, drift_floor, in_order, last_step, numbered, subject};
 use crate::shape::{Look, Shape};
 use crate::sheet::units;
-use crate::style::{AXIS, Colour, FLOOR, FULL_WIDTH, Stroke};
+use crate::style::{AXIS, FLOOR, FULL_WIDTH, Stroke};
 
 /// The components of the pose, in the order of the state.
 const COMPONENTS: [&str; 6] = [
@@ -44,7 +44,10 @@ pub fn pose_error(name: &str, histories: &[&RunHistory]) -> Result<Figure, Figur
     let steps = Axis::steps(last_step(&histories));
     let mut legend = vec![
         Entry::new(Look::Line(Stroke::solid(AXIS, 1.2)), "estimate − truth"),
-        Entry::new(band(PlannerName::PREDETERMINED), "±3σ of the filter"),
+        Entry::new(
+            band(&Method::new(PlannerName::PREDETERMINED, None)),
+            "±3σ of the filter",
+        ),
     ];
     if histories.iter().any(|h| !floor(h, 1.0).points.is_empty()) {
         legend.push(Entry::new(Look::Line(FLOOR), "±3σ of the drift floor"));

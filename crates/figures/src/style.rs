@@ -3,7 +3,6 @@
 
 use std::fmt;
 
-
 /// The width of a figure across both columns, px.
 pub(crate) const FULL_WIDTH: f64 = 688.0;
 

@@ -8,8 +8,8 @@ use adslam_diagnostics::Interrupt;
 use adslam_experiment::run::simulate;
 use adslam_experiment::tables::{ExperimentTables, PlannerRuns, TablePlan};
 use adslam_figures::{
-    BandedMean, ConsistencyCurve, ConsistencyCurves, Figure, Method, RunsOfMethod, boxes, comparison, consistency,
-    coverage, environments, estimates, nees, pose_error,
+    BandedMean, ConsistencyCurve, ConsistencyCurves, Figure, Method, RunsOfMethod, boxes,
+    comparison, consistency, coverage, environments, estimates, nees, pose_error,
 };
 use adslam_names::{EstimatorName, PlannerName};
 use adslam_record::{HistoryRecorder, RunHistory};
@@ -159,7 +159,12 @@ fn runs_that_hardly_began_are_drawn() {
 fn of_methods(tables: &ExperimentTables) -> Vec<RunsOfMethod<'_>> {
     let of = |p: &PlannerRuns| Method::new(p.planner, p.look.clone());
     let planners = tables.planners.iter();
-    planners.map(|p| RunsOfMethod { method: of(p), runs: &p.runs }).collect()
+    planners
+        .map(|p| RunsOfMethod {
+            method: of(p),
+            runs: &p.runs,
+        })
+        .collect()
 }
 
 #[test]
@@ -174,7 +179,10 @@ fn box_plots_have_a_panel_for_each_number() {
             run.pose_error_mean = f64::NAN;
         }
     }
-    check(&boxes("boxes", "hill", &of_methods(&tables)).unwrap(), &["0 of 3"]);
+    check(
+        &boxes("boxes", "hill", &of_methods(&tables)).unwrap(),
+        &["0 of 3"],
+    );
     tables.planners.iter_mut().for_each(|p| p.runs.clear());
     check(&boxes("boxes", "hill", &of_methods(&tables)).unwrap(), &[]);
     tables.planners.clear();

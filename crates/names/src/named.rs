@@ -61,7 +61,6 @@ mod tests {
     use super::*;
     use crate::EstimatorName;
     use crate::LengthUnit;
-    use crate::PlannerName;
 
     fn go_there_and_back<T: Named + PartialEq + std::fmt::Debug>() {
         for &one in T::ALL {

@@ -22,7 +22,9 @@ pub struct PlannerName {
 
 /// A text that cannot be the name of a planner.
 #[derive(Debug, Clone, PartialEq, Eq, ThisError)]
-#[error("{0:?} is no name of a planner; write up to 31 small letters, digits and _, a letter first")]
+#[error(
+    "{0:?} is no name of a planner; write up to 31 small letters, digits and _, a letter first"
+)]
 pub struct BadPlannerName(String);
 
 impl PlannerName {
@@ -53,7 +55,9 @@ impl PlannerName {
     pub const fn literal(name: &str) -> Self {
         match Self::checked(name) {
             Some(name) => name,
-            None => panic!("a planner's name has up to 31 small letters, digits and _, a letter first"),
+            None => {
+                panic!("a planner's name has up to 31 small letters, digits and _, a letter first")
+            }
         }
     }
 
@@ -193,7 +197,7 @@ impl PlannerLook {
             PlannerName::LOCAL => ("Local", [0xd5, 0x5e, 0x00]),
             PlannerName::GLOBAL => ("Global", [0x00, 0x72, 0xb2]),
             PlannerName::COMBINED => ("Combined", [0x00, 0x9e, 0x73]),
-            other => (other.as_str(), [0xcc, 0x79, 0xa7]),
+            _ => (name.as_str(), [0xcc, 0x79, 0xa7]),
         };
         Self::new(label, colour)
     }
@@ -220,10 +224,27 @@ mod tests {
 
     #[test]
     fn the_papers_planners_come_first() {
-        let mut names = ["tour", "combined", "abc", "predetermined", "global", "local"]
-            .map(PlannerName::literal);
+        let mut names = [
+            "tour",
+            "combined",
+            "abc",
+            "predetermined",
+            "global",
+            "local",
+        ]
+        .map(PlannerName::literal);
         names.sort();
         let sorted = names.map(|name| name.to_string());
-        assert_eq!(sorted, ["predetermined", "local", "global", "combined", "abc", "tour"]);
+        assert_eq!(
+            sorted,
+            [
+                "predetermined",
+                "local",
+                "global",
+                "combined",
+                "abc",
+                "tour"
+            ]
+        );
     }
 }

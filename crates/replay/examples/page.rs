@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use adslam_diagnostics::Interrupt;
 use adslam_experiment::run::simulate;
-use adslam_names::{Named, PlannerName};
+use adslam_names::PlannerName;
 use adslam_record::{HistoryRecorder, RunHistory};
 use adslam_scenario::Scenario;
 use adslam_setup::Setup;
@@ -30,7 +30,7 @@ fn history(out: &str, run: &str) -> Result<RunHistory, Box<dyn Error>> {
         return Ok(RunHistory::load(Path::new(run))?);
     };
     let setup = Setup::new(&Scenario::load(Path::new(scenario))?)?;
-    let planner = PlannerName::named(planner)?;
+    let planner = PlannerName::new(planner)?;
     let mut recorder = HistoryRecorder::new(&setup.model, planner, 1);
     simulate(&setup, planner, 1, &Interrupt::new(), &mut recorder)?;
     let folder = PathBuf::from(format!("{out}.{planner}"));

@@ -2,7 +2,8 @@
 
 use adslam_experiment::tables::{ExperimentTables, PlannerRuns};
 use adslam_figures::{
-    Figure, FigureError, Method, RunsOfMethod, boxes, comparison, coverage, environments, estimates, nees, pose_error,
+    Figure, FigureError, Method, RunsOfMethod, boxes, comparison, coverage, environments,
+    estimates, nees, pose_error,
 };
 use adslam_record::RunHistory;
 use base64::Engine;

@@ -16,7 +16,7 @@ fn tables(record: bool) -> Tables {
     let mut config = Config::load(&root.join("configs/paper.toml")).unwrap();
     for plan in &mut config.experiments {
         plan.planners
-            .retain(|p| matches!(p, PlannerName::PREDETERMINED | PlannerName::GLOBAL));
+            .retain(|p| matches!(*p, PlannerName::PREDETERMINED | PlannerName::GLOBAL));
     }
     let selection = Selection {
         runs: Some(2),

@@ -42,8 +42,8 @@ pub use motion::{
 pub use noise::{DeformationNoise, Filter, FilterNoise, Noise, Structure};
 pub use object::{Mesh, MeshPlacement, Object, Phantom, Points};
 pub use planners::{Combined, Global, Local, Planners, Predetermined};
-pub use robot::{Actions, Robot, Sensor};
 use registry::Registry;
+pub use robot::{Actions, Robot, Sensor};
 use values::{Name, Steps};
 pub use viewpoints::{Fixed, Grid, Viewpoints};
 

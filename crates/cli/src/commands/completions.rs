@@ -13,6 +13,11 @@ use crate::print::print;
 /// A standard output that cannot be written to.
 pub fn completions(shell: Shell, registry: &Registry) -> Result<(), Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Arguments::command_with(registry), "adslam", &mut script);
+    clap_complete::generate(
+        shell,
+        &mut Arguments::command_with(registry),
+        "adslam",
+        &mut script,
+    );
     print(String::from_utf8_lossy(&script).trim_end())
 }

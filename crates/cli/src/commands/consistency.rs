@@ -6,10 +6,10 @@ use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::consistency::{
     CHI_SQUARED_CONFIDENCE, ConsistencyCell, ConsistencyPlan, ConsistencyResults, Measure, Verdict,
 };
-use adslam_scenario::registry::Registry;
 use adslam_figures::{BandedMean, ConsistencyCurve, ConsistencyCurves, Method};
 use adslam_names::{EstimatorName, Named};
 use adslam_record::prepare_folder;
+use adslam_scenario::registry::Registry;
 
 use super::study::{finish, other_builds, tell_if_partial};
 use crate::ConsistencyArgs;
@@ -20,7 +20,11 @@ use crate::paths::folder_of;
 ///
 /// # Errors
 /// Bad input, runs that failed, files that cannot be written, or an interruption.
-pub fn consistency(args: &ConsistencyArgs, registry: &Registry, interrupt: &Interrupt) -> Result<(), Failure> {
+pub fn consistency(
+    args: &ConsistencyArgs,
+    registry: &Registry,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
     Answer::give(args.json, |answer| judge(args, registry, interrupt, answer))
 }
 
@@ -34,7 +38,12 @@ fn judge(
         [] => EstimatorName::ALL,
         some => some,
     };
-    let plan = ConsistencyPlan::load_with(&args.config, &args.selection.selection(), estimators, registry)?;
+    let plan = ConsistencyPlan::load_with(
+        &args.config,
+        &args.selection.selection(),
+        estimators,
+        registry,
+    )?;
     answer.warn(&plan.warnings());
     answer.set("title", &plan.title);
     let mut study = plan.open(&args.out, other_builds(args.accept_build))?;

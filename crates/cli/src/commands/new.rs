@@ -77,7 +77,12 @@ fn write(
 }
 
 /// The text at `out` that names a scenario or, if none is given, the `scenario.toml` beside it.
-fn of_scenario(template: &str, out: &Path, scenario: Option<&Path>, registry: &Registry) -> Result<String, InputError> {
+fn of_scenario(
+    template: &str,
+    out: &Path,
+    scenario: Option<&Path>,
+    registry: &Registry,
+) -> Result<String, InputError> {
     let folder = folder_of(out);
     let beside = out.with_file_name("scenario.toml");
     let path = scenario.unwrap_or(&beside);

@@ -2,11 +2,10 @@
 
 use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::run::{PAGE_FILE, RunRecorder, RunReport, simulate};
-use adslam_scenario::registry::Registry;
-use adslam_names::Named;
 use adslam_record::Observer;
 use adslam_record::log::LogRecorder;
 use adslam_scenario::Scenario;
+use adslam_scenario::registry::Registry;
 use adslam_setup::Setup;
 use adslam_simulation::StepView;
 use indicatif::ProgressBar;
@@ -19,10 +18,17 @@ use crate::{RunArgs, progress};
 /// # Errors
 /// Bad input, a failure of the run, or an interruption.
 pub fn run(args: &RunArgs, registry: &Registry, interrupt: &Interrupt) -> Result<(), Failure> {
-    Answer::give(args.json, |answer| run_once(args, registry, interrupt, answer))
+    Answer::give(args.json, |answer| {
+        run_once(args, registry, interrupt, answer)
+    })
 }
 
-fn run_once(args: &RunArgs, registry: &Registry, interrupt: &Interrupt, answer: &mut Answer) -> Result<(), Failure> {
+fn run_once(
+    args: &RunArgs,
+    registry: &Registry,
+    interrupt: &Interrupt,
+    answer: &mut Answer,
+) -> Result<(), Failure> {
     let mut scenario = Scenario::load_with(&args.scenario, registry)?;
     if let Some(mesh) = &args.mesh {
         scenario = scenario.with_mesh(mesh);

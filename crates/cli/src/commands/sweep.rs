@@ -3,6 +3,7 @@
 use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::study::SummaryRecord;
 use adslam_experiment::sweep::{SweepPlan, SweepResults};
+use adslam_scenario::registry::Registry;
 
 use super::study::{finish, other_builds, tell_if_partial};
 use crate::SweepArgs;
@@ -14,7 +15,9 @@ use crate::paths::folder_of;
 /// # Errors
 /// Bad input, runs that failed, files that cannot be written, or an interruption.
 pub fn sweep(args: &SweepArgs, registry: &Registry, interrupt: &Interrupt) -> Result<(), Failure> {
-    Answer::give(args.json, |answer| run_missing(args, registry, interrupt, answer))
+    Answer::give(args.json, |answer| {
+        run_missing(args, registry, interrupt, answer)
+    })
 }
 
 fn run_missing(

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::study::SummaryRecord;
 use adslam_experiment::tables::{TablePlan, Tables, json, markdown, terminal};
-use adslam_scenario::registry::Registry;
 use adslam_record::AtomicFile;
+use adslam_scenario::registry::Registry;
 
 use super::study::{finish, other_builds, tell_if_partial};
 use crate::TablesArgs;
@@ -21,8 +21,14 @@ use crate::paths::{folder_of, shown};
 ///
 /// # Errors
 /// Bad input, runs that failed, files that cannot be written, or an interruption.
-pub fn tables(args: &TablesArgs, registry: &Registry, interrupt: &Interrupt) -> Result<(), Failure> {
-    Answer::give(args.json, |answer| run_missing(args, registry, interrupt, answer))
+pub fn tables(
+    args: &TablesArgs,
+    registry: &Registry,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
+    Answer::give(args.json, |answer| {
+        run_missing(args, registry, interrupt, answer)
+    })
 }
 
 fn run_missing(

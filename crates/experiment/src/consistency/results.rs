@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use adslam_diagnostics::Failure;
-use adslam_names::{EstimatorName, Named, PlannerLook, PlannerName};
+use adslam_names::{EstimatorName, PlannerLook, PlannerName};
 use adslam_record::{AtomicFile, Column, ColumnKind, TableFile};
 use adslam_simulation::RunSummary;
 use rayon::prelude::*;

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use adslam_diagnostics::Failure;
-use adslam_names::Named;
 use adslam_record::{AtomicFile, Column, ColumnKind, TableFile};
 use adslam_statistics::{MeanEstimate, RankComparison};
 use rayon::prelude::*;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use adslam_diagnostics::Failure;
-use adslam_names::Named;
+use adslam_names::PlannerName;
 use adslam_scenario::config::PublishedScenario;
 use adslam_simulation::RunSummary;
 use serde::Serialize;
@@ -33,7 +33,7 @@ struct ComparisonJson<'a> {
     scenario: &'a str,
     table: String,
     row: String,
-    planner: &'static str,
+    planner: PlannerName,
     published: f64,
     /// What is expected of as many runs of ours as were published.
     ours: f64,
@@ -46,14 +46,14 @@ struct ComparisonJson<'a> {
 
 #[derive(Serialize)]
 struct ScenarioJson<'a> {
-    planners: BTreeMap<&'static str, &'a [RunSummary]>,
+    planners: BTreeMap<String, &'a [RunSummary]>,
 }
 
 #[derive(Serialize)]
 struct PublishedJson {
     coverage_table: String,
     error_table: String,
-    planners: BTreeMap<&'static str, PublishedPlannerJson>,
+    planners: BTreeMap<String, PublishedPlannerJson>,
 }
 
 #[derive(Serialize)]
@@ -74,7 +74,7 @@ pub fn json(tables: &Tables) -> Result<String, Failure> {
     let scenarios = tables.experiments.iter().map(|experiment| {
         let planners = experiment.planners.iter();
         let planners = planners
-            .map(|p| (p.planner.as_str(), p.runs.as_slice()))
+            .map(|p| (p.planner.to_string(), p.runs.as_slice()))
             .collect();
         (experiment.label.as_str(), ScenarioJson { planners })
     });
@@ -112,7 +112,7 @@ fn comparisons(experiment: &ExperimentTables) -> Vec<ComparisonJson<'_>> {
                     scenario: &experiment.label,
                     table: table.title.clone(),
                     row: row.name.clone(),
-                    planner: planner.as_str(),
+                    planner: *planner,
                     published: compared.published,
                     ours: compared.ours,
                     low: compared.interval.map(|interval| interval.low),
@@ -136,7 +136,7 @@ fn published_json(published: &PublishedScenario) -> PublishedJson {
             feature_error_mean: *column.feature_error_mean_cm,
             feature_error_max: *column.feature_error_max_cm,
         };
-        (name.as_str(), json)
+        (name.to_string(), json)
     });
     PublishedJson {
         coverage_table: published.coverage_table.to_string(),

@@ -9,25 +9,20 @@ mod tests;
 
 use std::path::{Path, PathBuf};
 
+use adslam_diagnostics::InputError;
+use adslam_documents::Document;
+use adslam_names::PlannerName;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use plan::ExperimentPlan;
-pub use plan::{each_once, reachable};
+pub(crate) use plan::{each_once, reachable};
 pub use published::{Published, PublishedPlanner, PublishedScenario, StepsToCover};
-pub use selection::Selection;
-pub use selection::checked_runs;
-
-use adslam_documents::Document;
+pub use selection::{Selection, checked_runs};
 
 use crate::FileKind;
-
-use crate::values::Count;
-use crate::values::List;
-use crate::values::Name;
-use crate::values::Seed;
-use adslam_diagnostics::InputError;
-use adslam_names::PlannerName;
+use crate::registry::Registry;
+use crate::values::{Count, List, Name, Seed};
 
 /// More runs of a planner are a mistake: their summaries would not fit into memory.
 pub const MOST_RUNS: usize = 100_000;

@@ -45,8 +45,14 @@ impl Place<'_> {
         let path = self.folder.join(&experiment.scenario);
         let path = reachable(self.document, &self.key("scenario"), path)?;
         let set = Layer::of_values(self.key("set"));
-        let scenario = Scenario::load_with(&path, self.registry)?.overridden(self.document, vec![set])?;
-        each_once(self.document, &self.key("planners"), &experiment.planners, self.registry)?;
+        let scenario =
+            Scenario::load_with(&path, self.registry)?.overridden(self.document, vec![set])?;
+        each_once(
+            self.document,
+            &self.key("planners"),
+            &experiment.planners,
+            self.registry,
+        )?;
         let published = match &experiment.published {
             None => None,
             Some(name) => Some(self.published(name, published)?),

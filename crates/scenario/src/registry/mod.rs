@@ -70,7 +70,10 @@ impl Registry {
     /// # Errors
     /// Where nothing is called so, with the names that there are.
     pub fn planner_named(&self, text: &str) -> Result<PlannerName, UnknownName> {
-        let found = self.planners.iter().find(|entry| entry.name.as_str() == text);
+        let found = self
+            .planners
+            .iter()
+            .find(|entry| entry.name.as_str() == text);
         found.map(|entry| entry.name).ok_or_else(|| {
             let known = self.planners.iter().map(|entry| entry.name.to_string());
             UnknownName::new("planner", text, known.collect())
@@ -94,8 +97,16 @@ impl Registry {
         if self.planner(name).is_ok() {
             return Ok(());
         }
-        let known: Vec<&str> = self.planners.iter().map(|entry| entry.name.as_str()).collect();
-        Err(unknown_choice(document.error_at(key, ""), name.as_str(), &known))
+        let known: Vec<&str> = self
+            .planners
+            .iter()
+            .map(|entry| entry.name.as_str())
+            .collect();
+        Err(unknown_choice(
+            document.error_at(key, ""),
+            name.as_str(),
+            &known,
+        ))
     }
 
     /// The paths of the tables that planners have for keys of their own.
@@ -144,11 +155,22 @@ impl Registry {
     }
 
     fn schema_of_names(&self) -> Value {
-        let names: Vec<&str> = self.planners.iter().map(|entry| entry.name.as_str()).collect();
-        let meanings: Vec<&str> = self.planners.iter().map(|entry| entry.meaning.as_str()).collect();
+        let names: Vec<&str> = self
+            .planners
+            .iter()
+            .map(|entry| entry.name.as_str())
+            .collect();
+        let meanings: Vec<&str> = self
+            .planners
+            .iter()
+            .map(|entry| entry.meaning.as_str())
+            .collect();
         let mut schema = Map::new();
         let mut insert = |key: &str, value: Value| schema.insert(key.to_owned(), value);
-        insert("description", json!("The planners, in the order of the paper's tables."));
+        insert(
+            "description",
+            json!("The planners, in the order of the paper's tables."),
+        );
         insert("type", json!("string"));
         insert("enum", json!(names));
         // Taplo's own key for what each word means.
