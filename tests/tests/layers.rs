@@ -15,7 +15,11 @@ fn metadata() -> Value {
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
         .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
@@ -31,10 +35,20 @@ fn layered(package: &Value) -> Option<String> {
 fn picture() -> BTreeMap<String, usize> {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/ARCHITECTURE.md");
     let text = fs::read_to_string(page).unwrap();
-    let block = text.split("```text\n").nth(1).unwrap().split("```").next().unwrap();
+    let block = text
+        .split("```text\n")
+        .nth(1)
+        .unwrap()
+        .split("```")
+        .next()
+        .unwrap();
     let lines = block.lines().enumerate();
     lines
-        .flat_map(|(line, crates)| crates.split_whitespace().map(move |name| (name.to_owned(), line)))
+        .flat_map(|(line, crates)| {
+            crates
+                .split_whitespace()
+                .map(move |name| (name.to_owned(), line))
+        })
         .collect()
 }
 
@@ -43,10 +57,21 @@ fn dependencies(metadata: &Value) -> BTreeMap<String, Vec<String>> {
     let nodes = metadata["resolve"]["nodes"].as_array().unwrap();
     let of_node = |node: &Value| {
         let used = node["deps"].as_array().unwrap().iter();
-        let normal = |dep: &&Value| dep["dep_kinds"].as_array().unwrap().iter().any(|kind| kind["kind"].is_null());
-        used.filter(normal).map(|dep| dep["pkg"].as_str().unwrap().to_owned()).collect()
+        let normal = |dep: &&Value| {
+            dep["dep_kinds"]
+                .as_array()
+                .unwrap()
+                .iter()
+                .any(|kind| kind["kind"].is_null())
+        };
+        used.filter(normal)
+            .map(|dep| dep["pkg"].as_str().unwrap().to_owned())
+            .collect()
     };
-    nodes.iter().map(|node| (node["id"].as_str().unwrap().to_owned(), of_node(node))).collect()
+    nodes
+        .iter()
+        .map(|node| (node["id"].as_str().unwrap().to_owned(), of_node(node)))
+        .collect()
 }
 
 #[test]
@@ -66,7 +91,9 @@ fn crates_use_only_what_is_below_them() {
     let dependencies = dependencies(&metadata);
     for (id, name) in &names {
         for used in &dependencies[*id] {
-            let Some(used) = names.get(used.as_str()) else { continue };
+            let Some(used) = names.get(used.as_str()) else {
+                continue;
+            };
             assert!(layers[name] < layers[used], "{name} uses {used}");
         }
     }
@@ -77,7 +104,8 @@ fn figures_replays_and_exports_know_no_toml() {
     let metadata = metadata();
     let packages = metadata["packages"].as_array().unwrap();
     let dependencies = dependencies(&metadata);
-    let name = |id: &str| packages.iter().find(|package| package["id"] == id).unwrap()["name"].clone();
+    let name =
+        |id: &str| packages.iter().find(|package| package["id"] == id).unwrap()["name"].clone();
     for package in packages {
         let knows_toml = match layered(package).as_deref() {
             Some("figures" | "replay" | "export" | "record") => false,

@@ -133,7 +133,7 @@ impl Document {
         InputError::in_text(path, text, span.unwrap_or(0..0), message)
     }
 
-    /// The keys of a table of lists with the lengths of those, in the order of the file; nothing where there is no
+    /// The keys of a table of lists with the lengths of those, in the order of the file; empty where there is no
     /// such table.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 //! Every function takes runs ([`RunHistory`](adslam_record::RunHistory)) or their
 //! summaries and returns a [`Figure`], which is an SVG document and can be turned into a PNG. The
 //! same runs give the same bytes on every machine: the font is part of the program. A method has
-//! the same colour in all figures, one that is told apart without colour vision.
+//! the same colour in all figures, one that is distinguished without colour vision.
 
 mod axis;
 mod boxes;

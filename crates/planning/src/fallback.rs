@@ -8,7 +8,7 @@ use crate::{Candidate, ties};
 /// Part of a way to which its last touch is found.
 const RESOLUTION: f64 = 1e-9;
 
-/// Chooses where no action is safe; keeps its room.
+/// Chooses where no action is safe; reuses its allocations.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Fallback {
     ways: Vec<Way>,

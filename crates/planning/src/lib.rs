@@ -14,7 +14,7 @@
 //!
 //! For planners of one's own: [`ObjectSurfaces`], [`SafeActions`] and [`VisibleSets`] say where the object
 //! will be, what is safe and what would be seen, and [`ActionScorer`] which candidate leaves the
-//! smallest trace. All keep their room from decision to decision.
+//! smallest trace. All reuse their allocations from decision to decision.
 //!
 //! A planner sees the belief and the known motion of the object, never the truth, a random number
 //! generator or a clock: the draws of Algorithm 2 are handed in. Units are cm and radians.

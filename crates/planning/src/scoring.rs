@@ -26,7 +26,7 @@ impl PlanningNoise {
     }
 }
 
-/// Scores the candidates of one decision after another; keeps its room between them.
+/// Scores the candidates of one decision after another; reuses its allocation between them.
 #[derive(Clone, Debug, Default)]
 pub struct ActionScorer {
     noise: PlanningNoise,

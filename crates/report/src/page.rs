@@ -86,7 +86,7 @@ fn troubles(tables: &Tables) -> Markup {
     }
 }
 
-/// How to read the cells; nothing where none is compared.
+/// How to read the cells; empty where none is compared.
 fn legend(tables: &Tables) -> Markup {
     if tables.experiments.iter().all(|e| e.published.is_none()) {
         return html! {};

@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::near_vertices;
 use crate::rest_object::{features_of, parted};
 
-/// An object whose largest extent is not within these bounds, cm, was hardly meant.
+/// An object whose largest extent is not within these bounds, cm, is probably a unit error.
 const USUAL_EXTENT_CM: std::ops::RangeInclusive<f64> = 1.0..=200.0;
 
 /// What a mesh file is looked at for.

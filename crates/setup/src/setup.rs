@@ -160,7 +160,7 @@ impl Setup {
         Ok((episode, warnings))
     }
 
-    /// What a user should know of runs of this planner that are to be repeatable; nothing where they are.
+    /// What a user should know of runs of this planner that are to be repeatable; `None` where they are.
     #[must_use]
     pub fn deadline_warning(&self, planner: PlannerName) -> Option<String> {
         self.scenario.deadline_ms(planner)?;

@@ -42,7 +42,7 @@ pub struct MeanEstimate {
 }
 
 impl MeanEstimate {
-    /// Of independent values; nothing if there are none.
+    /// Of independent values; `None` if there are none.
     ///
     /// The interval is Efron's percentile interval (B. Efron and R. Tibshirani, *An Introduction to the
     /// Bootstrap*, 1993, ch. 13): of [`RESAMPLES`] means, each of as many values drawn with replacement,

@@ -22,7 +22,7 @@ pub struct PairedComparison {
 }
 
 impl PairedComparison {
-    /// Of differences dᵢ = aᵢ − bᵢ, one for each pair; nothing if there are none.
+    /// Of differences dᵢ = aᵢ − bᵢ, one for each pair; `None` if there are none.
     ///
     /// Where a and b are exchangeable within each pair, every dᵢ is as likely to have either sign. The
     /// p-value is the share of the 2ⁿ choices of signs for which |Σ ±dᵢ| is at least as large as |Σ dᵢ|

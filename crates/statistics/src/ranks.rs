@@ -18,7 +18,7 @@ pub struct RankComparison {
 }
 
 impl RankComparison {
-    /// Of pairs, each value none where it never comes; nothing if there are none.
+    /// Of pairs, each value none where it never comes; `None` if there are none.
     ///
     /// All 2n values are ranked together: the smallest first, equal ones sharing the mean of their ranks, and all
     /// that never come last and equal. Where both of a pair are exchangeable, to exchange them changes the sign of

@@ -1,4 +1,4 @@
-//! OBJ and PLY files, good and bad, how formats are told apart, and what is said of a mesh.
+//! OBJ and PLY files, good and bad, how formats are distinguished, and what is said of a mesh.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,

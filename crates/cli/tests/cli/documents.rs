@@ -60,7 +60,7 @@ fn commands(page: &str) -> Vec<String> {
     commands
 }
 
-/// The command as it is run here; nothing where it is not.
+/// The command as it is run here; `None` where it is not.
 fn rewritten(command: &str) -> Option<String> {
     if LEFT_OUT.iter().any(|(start, _)| command.starts_with(start)) {
         return None;

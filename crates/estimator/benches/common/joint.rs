@@ -29,7 +29,7 @@ fn centre(m: &mut Mat<f64>) {
     }
 }
 
-/// P after all pairs are measured; nothing where P is no covariance.
+/// P after all pairs are measured; `None` where P is no covariance.
 pub fn update(p: &mut Mat<f64>, sigma: f64) -> Option<()> {
     let features = p.nrows() - POSE_DIM;
     let mut v = p.subrows(POSE_DIM, features).to_owned();

@@ -42,7 +42,7 @@ impl ActionTerms {
 /// A trace and what tells how many of its digits are right.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ActionTrace {
-    /// Nothing if the information of the unknowns has no inverse.
+    /// `None` if the information of the unknowns has no inverse.
     pub(super) value: Option<f64>,
     /// The largest information that the set has of one of the unknowns.
     pub(super) information: f64,
@@ -185,7 +185,7 @@ fn congruence(m: &Rows<12, 12>, action: &ActionTerms, diagonal: f64) -> Rows<12,
     out
 }
 
-/// A⁻¹ of a symmetric matrix; nothing if it is not positive definite.
+/// A⁻¹ of a symmetric matrix; `None` if it is not positive definite.
 #[inline(always)]
 fn inverse(mut a: Rows<12, 12>) -> Option<Rows<12, 12>> {
     // A = RᵀR by elimination; the same on the identity gives V = R⁻ᵀ, and A⁻¹ = VᵀV. What is left

@@ -103,7 +103,7 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// Of the runs of one estimator and planner; nothing if the measure was never taken.
+    /// Of the runs of one estimator and planner; `None` if the measure was never taken.
     #[must_use]
     pub fn of(measure: Measure, runs: &[&ConsistencyRecord]) -> Option<Self> {
         let last = runs.iter().map(|run| run.steps()).max()?;

@@ -106,7 +106,7 @@ impl ConsistencyPlan {
         })
     }
 
-    /// Begins the study in `folder`, goes on with it, or lets it grow.
+    /// Begins the study in `folder`, resumes it, or lets it grow.
     ///
     /// # Errors
     /// As [`Study::open`].

@@ -61,7 +61,7 @@ impl ConsistencyRecord {
         self.pose_nees.len()
     }
 
-    /// The squared error or innovation at a step, by its index, and its degrees of freedom; nothing where
+    /// The squared error or innovation at a step, by its index, and its degrees of freedom; `None` where
     /// there was none.
     #[must_use]
     pub fn value(&self, measure: Measure, index: usize) -> Option<(f64, usize)> {

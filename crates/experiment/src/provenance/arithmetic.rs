@@ -20,7 +20,7 @@ pub(super) fn checksum() -> &'static str {
     static CHECKSUM: OnceLock<String> = OnceLock::new();
     CHECKSUM.get_or_init(|| match computed() {
         Ok(checksum) => format!("{checksum:08x}"),
-        // Where the arithmetic is so different that the runs fail, that is what tells it apart.
+        // Where the arithmetic is so different that the runs fail, that is what distinguishes it.
         Err(error) => format!("none ({error})"),
     })
 }

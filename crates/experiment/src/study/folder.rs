@@ -19,7 +19,7 @@ const RECORDS: &str = "records";
 const PARTIAL: &str = "partial";
 /// Larger plans are not ours: ten thousand points take some megabytes.
 const LARGEST_PLAN: u64 = 1 << 28;
-const WAIT: &str = "wait until it has ended, or stop it, and give the command again: it goes on with what is there; \
+const WAIT: &str = "wait until it has ended, or stop it, and give the command again: it resumes with what is there; \
     or give another folder with --out";
 /// Files that tell that a folder holds results of something else, where it holds no plan.
 const RESULTS: [&str; 8] = [

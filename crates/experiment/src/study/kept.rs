@@ -98,7 +98,7 @@ impl KeptPlan {
 }
 
 impl KeptPoint {
-    /// What it is told apart by.
+    /// What it is distinguished by.
     fn key(&self) -> String {
         let set = Value::Object(self.set.clone());
         format!("{} {set}", self.object_crc32)

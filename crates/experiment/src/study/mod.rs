@@ -88,7 +88,7 @@ enum Outcome<R> {
 }
 
 impl<'a, R: Serialize + DeserializeOwned + Send> Study<'a, R> {
-    /// Begins the study of `plan` in `folder`, goes on with it, or lets it grow to `plan`: locks the folder, makes
+    /// Begins the study of `plan` in `folder`, resumes it, or lets it grow to `plan`: locks the folder, makes
     /// sure that it holds nothing that is not in `plan`, reads the records that are there, removes what a killed
     /// process left half-written, and writes down what the study has become.
     ///

@@ -89,7 +89,7 @@ impl SweepPlan {
         self.setups.iter().map(point)
     }
 
-    /// Begins the sweep in `folder`, goes on with it, or lets it grow.
+    /// Begins the sweep in `folder`, resumes it, or lets it grow.
     ///
     /// # Errors
     /// As [`Study::open`].

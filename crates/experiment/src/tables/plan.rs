@@ -122,7 +122,7 @@ impl TablePlan {
         }
     }
 
-    /// Begins the runs in `folder`, goes on with them, or lets them grow.
+    /// Begins the runs in `folder`, resumes them, or lets them grow.
     ///
     /// # Errors
     /// As [`Study::open`].

@@ -53,7 +53,7 @@ pub fn actions() -> ActionSet {
     )
 }
 
-/// The model and the belief; nothing if the hull of the features has no volume to speak of.
+/// The model and the belief; `None` if the hull of the features has no volume to speak of.
 pub fn world(features: &[Point3<f64>], pose: Pose) -> Option<(PlanningModel, Belief)> {
     let model = PlanningModel {
         noise: FilterNoise {

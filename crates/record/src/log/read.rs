@@ -59,7 +59,7 @@ impl<R: BufRead> LogReader<R> {
         self.lines.number()
     }
 
-    /// The next step; nothing at the end.
+    /// The next step; `None` at the end.
     ///
     /// # Errors
     /// [`InputError`] with the line, what is wrong with it, and what to do.

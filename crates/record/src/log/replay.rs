@@ -115,7 +115,7 @@ impl<R: BufRead> Replay<R> {
         Ok(replay)
     }
 
-    /// Filters the next step; nothing at the end of the log.
+    /// Filters the next step; `None` at the end of the log.
     ///
     /// # Errors
     /// A line that cannot be used, or a covariance that breaks down.

@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaterni
 /// The rotation and translation that bring `from` closest to `to` in the least-squares sense, without
 /// scale: Umeyama, 1991. Points beyond the shorter list are ignored.
 ///
-/// Nothing if there are no points, a coordinate is not finite, or the decomposition fails.
+/// `None` if there are no points, a coordinate is not finite, or the decomposition fails.
 #[must_use]
 pub fn align(from: &[Point3<f64>], to: &[Point3<f64>]) -> Option<Isometry3<f64>> {
     let pairs = || from.iter().zip(to);

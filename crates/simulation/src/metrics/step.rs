@@ -45,7 +45,7 @@ pub struct StepMetrics {
 /// estimated pose with them: they hold what the robot knows of its place relative to the object,
 /// without the drift of everything together, which no measurement shows.
 ///
-/// Nothing if the estimate is not finite.
+/// `None` if the estimate is not finite.
 #[must_use]
 pub fn measure_step(belief: &Belief, truth: &State, own_error: &[f64]) -> Option<StepMetrics> {
     let State { pose, features } = truth;

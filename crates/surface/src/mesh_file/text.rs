@@ -98,7 +98,7 @@ impl PassedOver {
         self.count += 1;
     }
 
-    /// Which they are, and what about them; nothing if there are none.
+    /// Which they are, and what about them; `None` if there are none.
     pub(super) fn note(&self, what: &str) -> Option<String> {
         let Self { count, first } = self;
         match count {
