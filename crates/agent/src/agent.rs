@@ -51,7 +51,7 @@ impl Agent {
     pub fn decide(
         &mut self,
         feature_motion: &[Vector3<f64>],
-        time_is_up: Option<&dyn Fn() -> bool>,
+        time_is_up: Option<&(dyn Fn() -> bool + Sync)>,
     ) -> Result<Option<Decision>, PlanningError> {
         let Some((planner, model)) = &mut self.planner else {
             return Ok(None);

@@ -72,6 +72,26 @@ impl Covariance {
         self.matrix[(row, column)]
     }
 
+    /// Copies all entries, row by row, into `entries`.
+    ///
+    /// # Errors
+    /// Unless there is room for n² entries, no more and no less.
+    pub fn copy_to(&self, entries: &mut [f64]) -> Result<(), EstimatorError> {
+        let n = self.dim();
+        if entries.len() != n * n {
+            return Err(EstimatorError::SliceLength {
+                found: entries.len(),
+                entries: n * n,
+            });
+        }
+        for (row, entries) in entries.chunks_exact_mut(n.max(1)).enumerate() {
+            for (column, entry) in entries.iter_mut().enumerate() {
+                *entry = self.matrix[(row, column)];
+            }
+        }
+        Ok(())
+    }
+
     /// Covariance of the pose in the order (roll, pitch, yaw, x, y, z).
     #[must_use]
     pub fn pose(&self) -> Matrix6<f64> {
@@ -261,5 +281,27 @@ impl Covariance {
             };
             self.matrix[(j, j)] += sigma * sigma;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_are_copied_row_by_row() {
+        let covariance = Covariance::from_lower(9, |i, j| (10 * i + j) as f64);
+        let mut entries = vec![f64::NAN; 81];
+        covariance.copy_to(&mut entries).unwrap();
+        assert_eq!(&entries[..3], &[0.0, 10.0, 20.0], "it is symmetric");
+        assert_eq!((entries[9 * 8 + 2], entries[9 * 2 + 8]), (82.0, 82.0));
+        let error = covariance
+            .copy_to(&mut entries[..80])
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.contains("81 entries") && error.contains("slice of 80"),
+            "{error}"
+        );
     }
 }

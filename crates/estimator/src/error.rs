@@ -109,6 +109,14 @@ pub enum EstimatorError {
         /// Which input.
         what: &'static str,
     },
+    /// A slice that the entries do not fit into.
+    #[error("a covariance with {entries} entries does not fit into a slice of {found}")]
+    SliceLength {
+        /// How long the slice is.
+        found: usize,
+        /// How many entries there are.
+        entries: usize,
+    },
     /// Something was given for the wrong number of features.
     #[error("{what} is given for {found} features, but the state has {expected}")]
     WrongCount {

@@ -17,7 +17,7 @@ pub struct Situation<'a> {
     pub model: &'a PlanningModel,
     /// Whether the time for the decision is up; asked between actions, absent where time does not
     /// matter. Planners have no clock of their own.
-    pub time_is_up: Option<&'a dyn Fn() -> bool>,
+    pub time_is_up: Option<&'a (dyn Fn() -> bool + Sync)>,
 }
 
 impl Situation<'_> {

@@ -126,6 +126,18 @@ impl SafeActions {
         &self.candidates
     }
 
+    /// Says of each action of the set, by its place there, whether it is safe; of none where all that is left is a
+    /// compromise. As long as [`SafeActions::keep_nearest`] has left none out.
+    pub fn mask(&self, safe: &mut [bool]) {
+        safe.fill(false);
+        let candidates = self.candidates.iter().take(self.safe);
+        for place in candidates.filter_map(|candidate| candidate.index) {
+            if let Some(safe) = safe.get_mut(place) {
+                *safe = true;
+            }
+        }
+    }
+
     /// How many actions are safe.
     #[must_use]
     pub fn safe(&self) -> usize {

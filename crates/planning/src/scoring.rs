@@ -70,7 +70,7 @@ impl ActionScorer {
     }
 
     /// The score of the candidate with the smallest trace, the first in the action set among equals;
-    /// nothing if there are no candidates. `sets` says what each of them sees.
+    /// `None` if there are no candidates. `sets` says what each of them sees.
     ///
     /// Candidates are scored in groups that see the same, those that see most first. One that is
     /// sure to be worse than the best so far is passed over: measuring more never raises the
@@ -84,6 +84,35 @@ impl ActionScorer {
         candidates: &[Candidate],
         sets: &VisibleSets,
     ) -> Result<Option<Score>, PlanningError> {
+        self.score(situation, candidates, sets, true)?;
+        Ok(first_of_the_best(&self.scores))
+    }
+
+    /// The score of every candidate, or of those that the time for the decision was enough for, in the order of the
+    /// action set. `sets` says what each of them sees.
+    ///
+    /// # Errors
+    /// As [`ActionScorer::best`].
+    pub fn all(
+        &mut self,
+        situation: &Situation<'_>,
+        candidates: &[Candidate],
+        sets: &VisibleSets,
+    ) -> Result<&[Score], PlanningError> {
+        self.score(situation, candidates, sets, false)?;
+        self.scores
+            .sort_unstable_by_key(|score| ties::order(score.index));
+        Ok(&self.scores)
+    }
+
+    /// Scores the candidates, all of them or those that may be the best.
+    fn score(
+        &mut self,
+        situation: &Situation<'_>,
+        candidates: &[Candidate],
+        sets: &VisibleSets,
+        passes_over: bool,
+    ) -> Result<(), PlanningError> {
         if sets.count() != candidates.len() {
             return Err(PlanningError::SetsOfOtherCandidates {
                 sets: sets.count(),
@@ -115,14 +144,14 @@ impl ActionScorer {
             let mut entered = None;
             for &place in group {
                 if !self.scores.is_empty() && situation.is_late() {
-                    return Ok(first_of_the_best(&self.scores));
+                    return Ok(());
                 }
                 let Candidate {
                     index,
                     control,
                     pose,
                 } = candidates[place];
-                if let Some(wider) = wider {
+                if let Some(wider) = wider.filter(|_| passes_over) {
                     self.traces += 1;
                     if self.objective.after(&control, wider)? > smallest * MARGIN {
                         continue;
@@ -143,7 +172,7 @@ impl ActionScorer {
                 smallest = smallest.min(trace);
             }
         }
-        Ok(first_of_the_best(&self.scores))
+        Ok(())
     }
 }
 

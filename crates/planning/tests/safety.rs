@@ -104,6 +104,10 @@ proptest! {
             world.distance(end) > CLEARANCE && !world.surfaces.iter().any(crosses)
         };
         let expected: Vec<usize> = considered.iter().copied().filter(is_safe).collect();
+        let mut mask = vec![true; all.len()];
+        safe.mask(&mut mask);
+        let masked: Vec<usize> = (0..all.len()).filter(|i| mask[*i]).collect();
+        prop_assert_eq!(&masked, if safe.compromised() { &[][..] } else { &expected[..] });
         if !expected.is_empty() {
             let chosen: Vec<usize> = safe.candidates().iter().map(|c| c.index.unwrap()).collect();
             prop_assert_eq!(chosen, expected);

@@ -6,7 +6,7 @@
 
 mod common;
 
-use std::cell::Cell;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use adslam_estimator::{DirectTrace, FilterNoise, PlannedMeasurement};
 use adslam_models::Pose;
@@ -102,6 +102,14 @@ proptest! {
         let best = scorer.best(&situation, safe.candidates(), &sets)?.unwrap();
         check(scorer.scores(), &best, &safe, &traces)?;
 
+        let mut every = ActionScorer::new(noise);
+        let every = every.all(&situation, safe.candidates(), &sets)?;
+        prop_assert_eq!(every.len(), traces.len());
+        for ((score, candidate), trace) in every.iter().zip(safe.candidates()).zip(&traces) {
+            prop_assert_eq!(score.index, candidate.index);
+            prop_assert!((score.trace / trace - 1.0).abs() < 1e-9, "{} {trace}", score.trace);
+        }
+
         let mut planner = LocalPlanner::new(noise);
         let decision = planner.decide(&situation)?;
         prop_assert_eq!(planner.scores(), scorer.scores());
@@ -128,13 +136,9 @@ fn when_time_is_up_the_best_so_far_is_taken() {
     let pose = Pose::from_vector(&Vector6::new(0.1, -0.1, 0.2, -0.6, 0.1, 0.2));
     let (model, belief) = common::world(&features, pose).unwrap();
     let feature_motion = vec![Vector3::zeros(); features.len()];
-    let asked = Cell::new(0);
     let decide = |time: usize| {
-        asked.set(0);
-        let time_is_up = || {
-            asked.set(asked.get() + 1);
-            asked.get() >= time
-        };
+        let asked = AtomicUsize::new(0);
+        let time_is_up = || asked.fetch_add(1, Ordering::Relaxed) + 1 >= time;
         let situation = Situation {
             belief: &belief,
             feature_motion: &feature_motion,

@@ -166,7 +166,9 @@ impl Episode {
         let time_is_up = self
             .deadline_ms
             .map(|limit| move || milliseconds_since(start) >= limit);
-        let time_is_up = time_is_up.as_ref().map(|late| late as &dyn Fn() -> bool);
+        let time_is_up = time_is_up
+            .as_ref()
+            .map(|late| late as &(dyn Fn() -> bool + Sync));
         let decision = self
             .agent
             .decide(&self.known_motion, time_is_up)
