@@ -4,7 +4,6 @@ mod files;
 mod many;
 mod single;
 
-use adslam_diagnostics::{Failure, Interrupt};
 use adslam_scenario::registry::Registry;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
@@ -13,7 +12,6 @@ pub use files::{CheckArgs, MeshArgs, NewArgs, NewFile, SchemaKind};
 pub use many::{ConsistencyArgs, SelectionArgs, SweepArgs, TablesArgs};
 pub use single::{ExportArgs, ExportFormat, FilterArgs, ReplayArgs, RunArgs};
 
-use crate::commands;
 use crate::named::PlannerParser;
 
 /// The whole command line.
@@ -173,26 +171,5 @@ impl Command {
                 | Self::Sweep(_)
                 | Self::Consistency(_)
         )
-    }
-
-    /// Does it, with the planners of a registry.
-    ///
-    /// # Errors
-    /// Bad input, a failure, or an interruption; see [`crate::exit_code`].
-    pub fn execute(&self, registry: &Registry, interrupt: &Interrupt) -> Result<(), Failure> {
-        match self {
-            Self::Run(args) => commands::run(args, registry, interrupt),
-            Self::Replay(args) => commands::replay(args),
-            Self::Export(args) => commands::export(args),
-            Self::Filter(args) => commands::filter(args, interrupt),
-            Self::Tables(args) => commands::tables(args, registry, interrupt),
-            Self::Sweep(args) => commands::sweep(args, registry, interrupt),
-            Self::Consistency(args) => commands::consistency(args, registry, interrupt),
-            Self::Mesh(args) => commands::mesh(args),
-            Self::Check(args) => commands::check(args, registry),
-            Self::New(file) => commands::new(file, registry),
-            Self::Schema { kind } => commands::schema(*kind, registry),
-            Self::Completions { shell } => commands::completions(*shell, registry),
-        }
     }
 }
