@@ -1,4 +1,12 @@
 //! The command `adslam`: arguments, progress, exit codes. What is computed is computed elsewhere.
+//!
+//! ```no_run
+//! use adslam_scenario::registry::Registry;
+//!
+//! fn main() -> std::process::ExitCode {
+//!     adslam_cli::main_with(&Registry::standard())
+//! }
+//! ```
 
 mod answer;
 mod args;

@@ -10,14 +10,6 @@ use crate::{Arguments, Command, commands, exit_code, stop_on_signals};
 
 /// Reads the command line and does what it says, with the planners of `registry`: scenarios may have their keys, and
 /// every command knows their names.
-///
-/// ```no_run
-/// use adslam_scenario::registry::Registry;
-///
-/// fn main() -> std::process::ExitCode {
-///     adslam_cli::main_with(&Registry::standard())
-/// }
-/// ```
 #[must_use]
 pub fn main_with(registry: &Registry) -> ExitCode {
     let mut line = Arguments::command_with(registry);

@@ -1,4 +1,15 @@
 //! Bad input, told so that its author can mend it: what is wrong, where, and what to write instead.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use adslam_diagnostics::InputError;
+//!
+//! let text = "range_cm = -3\n";
+//! let error = InputError::in_text(Path::new("a.toml"), text, 11..13, "-3 is no range").with_help("write 3");
+//! assert_eq!(error.line_and_column(), Some((1, 12)));
+//! assert_eq!(error.pointed_at(), Some("-3"));
+//! ```
 
 mod failure;
 mod interrupt;

@@ -8,6 +8,30 @@
 //!
 //! The filter sees controls, the known motion of the features and measurements, never the truth.
 //! All units are cm and radians.
+//!
+//! ```
+//! use adslam_estimator::{
+//!     Belief, EstimatorKind, FeatureMeasurement, FilterNoise, Measurements, Parallelism, StructureMeasurements,
+//! };
+//! use adslam_models::{FeatureId, Pose};
+//! use nalgebra::{Matrix6, Point3, Vector3};
+//!
+//! let noise = FilterNoise {
+//!     rotation_sigma: 0.02,
+//!     translation_sigma: 0.03,
+//!     feature_motion_sigma: 0.05,
+//!     feature_measurement_sigma: 0.02,
+//!     structure_measurement_sigma: 0.5,
+//! };
+//! let mut filter = EstimatorKind::RightInvariantEkf.build(noise, None, Parallelism::Sequential)?;
+//! let features = vec![Point3::new(1.0, 0.0, 0.0), Point3::new(1.0, 1.0, 0.0)];
+//! let mut belief = Belief::initial(Pose::default(), features, &(Matrix6::identity() * 0.01), 0.1)?;
+//! let before = belief.covariance.trace();
+//! let measured = FeatureMeasurement { feature: FeatureId(0), z: Vector3::new(1.0, 0.0, 0.0) };
+//! filter.update(&mut belief, &Measurements { features: &[measured], structure: StructureMeasurements::None })?;
+//! assert!(belief.covariance.trace() < before);
+//! # Ok::<(), adslam_estimator::EstimatorError>(())
+//! ```
 
 mod belief;
 mod buffer;

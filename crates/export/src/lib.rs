@@ -4,6 +4,17 @@
 //! each step, [`write_csv`] every component of the state at each step. All take a [`RunHistory`]
 //! and know nothing of how it came about; files appear under their names only when complete.
 //!
+//! ```no_run
+//! use std::path::Path;
+//!
+//! use adslam_export::write_csv;
+//! use adslam_record::RunHistory;
+//!
+//! let run = RunHistory::load(Path::new("results/run"))?;
+//! write_csv(&run, Path::new("run.csv"))?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! [`RunHistory`]: adslam_record::RunHistory
 
 mod ellipsoid;

@@ -4,6 +4,17 @@
 //! summaries and returns a [`Figure`], which is an SVG document and can be turned into a PNG. The
 //! same runs give the same bytes on every machine: the font is part of the program. A method has
 //! the same colour in all figures, one that is distinguished without colour vision.
+//!
+//! ```no_run
+//! use std::path::Path;
+//!
+//! use adslam_figures::coverage;
+//! use adslam_record::RunHistory;
+//!
+//! let run = RunHistory::load(Path::new("results/run"))?;
+//! coverage("coverage", &[&run])?.write(Path::new("results"))?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod axis;
 mod boxes;

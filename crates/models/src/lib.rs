@@ -6,6 +6,17 @@
 //!
 //! Units are centimetres and radians. Two frames appear: *world*, fixed, and *body*, the
 //! robot's; R(Θ) takes body vectors to the world.
+//!
+//! ```
+//! use adslam_models::{Control, Pose, feature_measurement, predicted_pose};
+//! use nalgebra::{Point3, Vector3};
+//!
+//! let forward = Control { translation: Vector3::x(), ..Control::default() };
+//! let pose = predicted_pose(&Pose::default(), &forward);
+//! // Eq. (3): the feature in the robot's frame.
+//! let z = feature_measurement(&pose, &Point3::new(3.0, 1.0, 0.0));
+//! assert!((z - Vector3::new(2.0, 1.0, 0.0)).norm() < 1e-12);
+//! ```
 
 mod angles;
 mod euler;

@@ -18,6 +18,20 @@
 //!
 //! A planner sees the belief and the known motion of the object, never the truth, a random number
 //! generator or a clock: the draws of Algorithm 2 are handed in. Units are cm and radians.
+//!
+//! ```
+//! use adslam_planning::ActionSet;
+//!
+//! // Turning by -10°, 0° or 10°, and 1 cm ahead or not at all; roll and pitch stay within 45°.
+//! let turn = 10_f64.to_radians();
+//! let actions = ActionSet::grid(
+//!     [&[0.0], &[0.0], &[-turn, 0.0, turn]],
+//!     [&[0.0, 1.0], &[0.0]],
+//!     45_f64.to_radians(),
+//!     45_f64.to_radians(),
+//! );
+//! assert_eq!(actions.controls().len(), 6);
+//! ```
 
 mod action;
 mod combined;

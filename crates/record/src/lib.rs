@@ -3,6 +3,25 @@
 //! Recorders are [`Observer`]s of a run: [`HistoryRecorder`] keeps what pictures and replays are made of,
 //! [`StepsFile`] and its kin write tables, [`log::LogRecorder`] writes the log from which [`log::Replay`] makes the run's
 //! estimates again.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use adslam_names::PlannerName;
+//! use adslam_record::{HistoryRecorder, Observer};
+//! use adslam_scenario::Scenario;
+//! use adslam_setup::Setup;
+//!
+//! let setup = Setup::new(&Scenario::load(Path::new("../../scenarios/polygon.toml"))?)?;
+//! let (mut episode, _) = setup.episode(PlannerName::GLOBAL, 1)?;
+//! let mut recorder = HistoryRecorder::new(&setup.model, PlannerName::GLOBAL, 1);
+//! recorder.step(&episode.view())?;
+//! let decision = episode.decide()?;
+//! episode.take(&decision.control)?;
+//! recorder.step(&episode.view())?;
+//! assert_eq!(recorder.history().steps.len(), 2);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod file;
 mod history;

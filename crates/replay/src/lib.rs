@@ -5,6 +5,16 @@
 //! `web/dist` and is compiled in here, so that building adslam needs neither node nor a network.
 //!
 //! This crate knows the form of a history and of the page, and nothing of how a run came about.
+//!
+//! ```no_run
+//! use std::path::Path;
+//!
+//! use adslam_record::RunHistory;
+//!
+//! let run = RunHistory::load(Path::new("results/run"))?;
+//! adslam_replay::write_html(&[&run], Path::new("replay.html"))?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod embed;
 mod page;

@@ -7,6 +7,19 @@
 //!
 //! This crate knows [`Tables`] and what figures and replays are made of, and nothing of how a run
 //! came about.
+//!
+//! ```no_run
+//! use std::path::Path;
+//!
+//! use adslam_diagnostics::Interrupt;
+//! use adslam_experiment::tables::TablePlan;
+//! use adslam_scenario::config::Selection;
+//!
+//! let plan = TablePlan::load(Path::new("configs/paper.toml"), &Selection::default())?;
+//! let tables = plan.run(&Interrupt::new(), &|| ());
+//! adslam_report::write(&tables, Path::new("results"))?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod drawings;
 mod machine;

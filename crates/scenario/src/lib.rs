@@ -3,6 +3,19 @@
 //! The types here are the file: a table is a struct, a key is a field, and the number types of
 //! [`values`] let no wrong value in. What several keys must agree on is checked after reading.
 //! `docs/scenario.md` is the reference for users.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use adslam_scenario::Scenario;
+//!
+//! let scenario = Scenario::load(Path::new("../../scenarios/polygon.toml"))?;
+//! assert_eq!(scenario.object.feature_count(), 14);
+//! let wrong = scenario.text().replace("steps = 100", "stesp = 100");
+//! let error = Scenario::parse(&wrong, Path::new("wrong.toml")).unwrap_err();
+//! assert!(error.remedy().unwrap().contains("did you mean `steps`?"));
+//! # Ok::<(), adslam_diagnostics::InputError>(())
+//! ```
 
 mod checks;
 pub mod config;

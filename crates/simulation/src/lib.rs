@@ -6,6 +6,24 @@
 //! of the present step, [`Episode::summary`] the run so far in numbers. Same seed, same episode: nothing else is random.
 //!
 //! Only this crate knows the truth and draws its noise. Nothing here reads or writes files.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use adslam_names::PlannerName;
+//! use adslam_scenario::Scenario;
+//! use adslam_setup::Setup;
+//!
+//! let setup = Setup::new(&Scenario::load(Path::new("../../scenarios/polygon.toml"))?)?;
+//! let (mut episode, _) = setup.episode(PlannerName::LOCAL, 1)?;
+//! for _ in 0..2 {
+//!     let decision = episode.decide()?;
+//!     episode.take(&decision.control)?;
+//! }
+//! assert_eq!(episode.view().step, 3);
+//! assert!(episode.summary().observed > 0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod episode;
 mod metrics;

@@ -2,6 +2,16 @@
 //!
 //! Nothing here assumes a distribution. All random draws come from generators with fixed seeds of their own,
 //! so the same numbers always give the same result; no seed of a run is touched.
+//!
+//! ```
+//! use adslam_statistics::PairedComparison;
+//!
+//! // The errors of one planner less those of another, at the same seeds.
+//! let differences = [-0.3, -0.1, -0.2, -0.4, 0.1, -0.2, -0.3, -0.1];
+//! let compared = PairedComparison::of(&differences).ok_or("no pairs")?;
+//! assert!(compared.difference.mean < 0.0 && compared.p < 0.05);
+//! # Ok::<(), &str>(())
+//! ```
 
 mod bootstrap;
 pub mod chi_squared;

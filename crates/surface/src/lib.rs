@@ -16,6 +16,23 @@
 //! No function panics, whatever it is given. Coordinates must be finite and at most
 //! [`MAX_COORDINATE_CM`] in size, and 0 or at least [`MIN_COORDINATE_CM`], which keeps every predicate free
 //! of overflow and underflow.
+//!
+//! ```
+//! use std::sync::Arc;
+//!
+//! use adslam_surface::{Surface, Topology};
+//! use nalgebra::Point3;
+//!
+//! let corners: Vec<Point3<f64>> = (0..8)
+//!     .map(|i| Point3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)))
+//!     .collect();
+//! let cube = Surface::new(&Arc::new(Topology::convex_hull(&corners)?), &corners)?;
+//! let robot = Point3::new(3.0, 0.5, 0.5);
+//! assert!((cube.signed_distance(&robot) - 2.0).abs() < 1e-12);
+//! // Corner 7 is at (1, 1, 1), corner 0 behind the cube.
+//! assert!(cube.sees(&robot, 7) && !cube.sees(&robot, 0));
+//! # Ok::<(), adslam_surface::SurfaceError>(())
+//! ```
 
 mod clearance;
 mod edges;
