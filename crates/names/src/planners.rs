@@ -164,7 +164,7 @@ impl JsonSchema for PlannerName {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": "string", "pattern": "^[a-z][a-z0-9_]{0,30}$" })
+        json_schema!({ "type": "string" })
     }
 }
 
