@@ -159,7 +159,12 @@ fn files_that_cannot_be_used_say_why() {
     };
     use serde_json::json;
     assert!(changed("/version", json!(3)).contains("version 3; this adslam reads versions 1 to 2"));
-    assert!(changed("/planner", json!("psychic")).contains("cannot be read"));
+    assert!(changed("/planner", json!("psy chic")).contains("cannot be read"));
+    let mut of_another_program = good.clone();
+    of_another_program["planner"] = json!("psychic");
+    of_another_program["planner_look"] = json!({ "label": "Psychic", "colour": [1, 2, 3] });
+    let read = RunHistory::parse(path, &of_another_program.to_string()).unwrap();
+    assert_eq!(read.planner_look.unwrap().label, "Psychic");
     assert!(changed("/steps", json!([])).contains("no steps"));
     assert!(changed("/steps/1/features", json!([])).contains("step 2: 0 features"));
     assert!(changed("/steps/2/visible", json!([14])).contains("number 14, beyond 14"));
