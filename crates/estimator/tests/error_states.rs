@@ -11,7 +11,7 @@ use adslam_estimator::{
 use adslam_models::lie::{LieGroup, SeK3, So3TimesPoints};
 use adslam_models::{Control, FeatureId, Pose, State, feature_measurement};
 use common::{NOISE, assert_close, control, covariance_matrix, every_pair, vectors};
-use nalgebra::{DMatrix, DVector, Point3, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3, Vector6};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use textbook::Textbook;
@@ -199,6 +199,13 @@ fn an_estimator_says_the_error_of_its_own_coordinates() -> Result<(), EstimatorE
     assert_eq!(so3, So3Error::error(&a, &b));
     assert_ne!(so3, euler);
     Ok(())
+}
+
+#[test]
+fn the_papers_errors_stay_as_they_are_whatever_was_reset_before() {
+    let mut blocks = vec![Matrix3::identity()];
+    EulerError::reset(&State::default(), &State::default(), &mut blocks);
+    assert!(blocks.is_empty());
 }
 
 /// A few steps of any kind.
