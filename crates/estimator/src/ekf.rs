@@ -264,3 +264,26 @@ pub(crate) fn check_feature(feature: FeatureId, count: usize) -> Result<(), Esti
         last: count.saturating_sub(1),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Threads change no result, so that only this can tell whether they are used.
+    #[test]
+    fn a_filter_keeps_its_gate_and_its_threads() -> Result<(), EstimatorError> {
+        let noise = FilterNoise {
+            rotation_sigma: 0.02,
+            translation_sigma: 0.03,
+            feature_motion_sigma: 0.058,
+            feature_measurement_sigma: 0.02,
+            structure_measurement_sigma: 0.5,
+        };
+        let ekf = Ekf::new(noise)?
+            .with_parallelism(Parallelism::Rayon)
+            .with_gate(Some(16.0))?;
+        assert_eq!(ekf.parallelism, Parallelism::Rayon);
+        assert_eq!(ekf.gate, Some(16.0));
+        Ok(())
+    }
+}

@@ -1,5 +1,8 @@
 //! The update with what the robot's sensor saw, eq. (10).
 
+#[cfg(test)]
+mod tests;
+
 use adslam_models::{
     FeatureId, FeatureMeasurementJacobians, POSE_DIM, Pose, feature_measurement,
     feature_measurement_jacobians, feature_offset,

@@ -5,13 +5,13 @@ mod common;
 mod textbook;
 
 use adslam_estimator::{
-    Belief, Ekf, ErrorState, Estimator, EulerError, FeatureMeasurement, Measurements,
-    PairMeasurement, RightInvariantError, So3Error, StructureMeasurements,
+    Belief, Ekf, ErrorState, Estimator, EstimatorError, EulerError, FeatureMeasurement,
+    Measurements, PairMeasurement, RightInvariantError, So3Error, StructureMeasurements,
 };
 use adslam_models::lie::{LieGroup, SeK3, So3TimesPoints};
 use adslam_models::{Control, FeatureId, Pose, State, feature_measurement};
 use common::{NOISE, assert_close, control, covariance_matrix, every_pair, vectors};
-use nalgebra::{DMatrix, DVector, Point3, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix3, Point3, Vector3, Vector6};
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use textbook::Textbook;
@@ -184,6 +184,28 @@ proptest! {
         run.compare(Ekf::<So3Error>::in_coordinates(NOISE)?, textbook::SO3)?;
         run.compare(Ekf::<RightInvariantError>::in_coordinates(NOISE)?, textbook::RIGHT_INVARIANT)?;
     }
+}
+
+#[test]
+fn an_estimator_says_the_error_of_its_own_coordinates() -> Result<(), EstimatorError> {
+    let at = |pose: [f64; 6], x: f64| State {
+        pose: Pose::from_vector(&Vector6::from(pose)),
+        features: vec![Point3::new(x, 2.0, 3.0)],
+    };
+    let (a, b) = (at([0.1; 6], 1.0), at([0.3, -0.2, 0.4, 1.0, 2.0, 3.0], 1.5));
+    let euler = Ekf::new(NOISE)?.error(&a, &b);
+    assert_eq!(euler, EulerError::error(&a, &b));
+    let so3 = Ekf::<So3Error>::in_coordinates(NOISE)?.error(&a, &b);
+    assert_eq!(so3, So3Error::error(&a, &b));
+    assert_ne!(so3, euler);
+    Ok(())
+}
+
+#[test]
+fn the_papers_errors_stay_as_they_are_whatever_was_reset_before() {
+    let mut blocks = vec![Matrix3::identity()];
+    EulerError::reset(&State::default(), &State::default(), &mut blocks);
+    assert!(blocks.is_empty());
 }
 
 /// A few steps of any kind.

@@ -150,3 +150,42 @@ fn a_gate_that_lost_its_digits_says_that_the_sigmas_are_too_far_apart() -> Resul
     }
     Ok(())
 }
+
+/// The same where all variances are small, and the measurement so far off that the gate would keep it out.
+#[test]
+fn a_gate_judges_its_digits_by_the_size_of_the_terms() -> Result<(), EstimatorError> {
+    let features = vec![Point3::new(1.0, 2.0, 3.0)];
+    let start = Belief::initial(Pose::default(), features, &Matrix6::zeros(), 0.0)?;
+    let covariance = Covariance::from_lower(9, |i, j| match (i, j) {
+        (0..3, _) | (_, 0..3) => f64::from(u8::from(i == j)) * 1e-24,
+        _ if i == j => 1e-3,
+        _ if i % 3 == j % 3 => 1e-3 - 5e-15,
+        _ => 0.0,
+    });
+    let mut belief = Belief {
+        covariance,
+        ..start
+    };
+    let measurement = FeatureMeasurement {
+        feature: FeatureId(0),
+        z: Vector3::zeros(),
+    };
+    let noise = FilterNoise {
+        feature_measurement_sigma: 1e-7,
+        ..NOISE
+    };
+    let mut estimator =
+        EstimatorKind::EulerEkf.build(noise, Some(GATE), Parallelism::Sequential)?;
+    let refused = estimator.update(
+        &mut belief,
+        &Measurements {
+            features: &[measurement],
+            structure: StructureMeasurements::None,
+        },
+    );
+    assert!(
+        matches!(refused, Err(EstimatorError::TooPrecise { .. })),
+        "{refused:?}"
+    );
+    Ok(())
+}

@@ -128,3 +128,61 @@ impl NearFace {
         self.normal.dot(&from_centre).abs() > limit || from_centre.norm_squared() > ball * ball
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::Topology;
+
+    /// A tetrahedron whose face z = 0 is this triangle.
+    fn below(triangle: [[f64; 2]; 3], depth: f64) -> Surface {
+        let [a, b, c] = triangle.map(|[x, y]| Point::new(x, y, 0.0));
+        let corners = [a, b, c, Point::new(0.0, 0.0, -depth)];
+        let topology = Arc::new(Topology::convex_hull(&corners).unwrap());
+        Surface::new(&topology, &corners).unwrap()
+    }
+
+    fn top(surface: &Surface) -> NearFace {
+        let is_top = |face: &usize| surface.corners(*face).iter().all(|p| p.z == 0.0);
+        NearFace::of(surface, (0..4).find(is_top).unwrap())
+    }
+
+    #[test]
+    fn bounds_pass_over_what_is_beyond_them_by_more_than_rounding() {
+        let face = top(&below(
+            [[-100.0, -100.0], [200.0, -100.0], [-100.0, 200.0]],
+            50.0,
+        ));
+        for beside in [Point::new(0.0, 0.0, 101.0), Point::new(330.0, 0.0, 0.0)] {
+            assert!(face.is_surely_beyond(&beside, 100.0));
+        }
+        // The slack is a part of the largest length, of no product of two.
+        assert!(face.is_surely_beyond(&Point::new(0.0, 0.0, 100.0 + 1e-6), 100.0));
+    }
+
+    #[test]
+    fn a_small_thin_face_has_a_normal() {
+        let face = top(&below([[-0.1, 0.0], [0.1, 0.0], [0.0, 0.01]], 0.1));
+        assert!((face.normal.norm() - 1.0).abs() < 1e-12);
+        assert!((face.normal.z.abs() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_nearest_faces_come_first_and_none_of_a_surface_out_of_reach() {
+        let surface = below([[-1.0, -1.0], [2.0, -1.0], [-1.0, 2.0]], 0.2);
+        let mut room = Clearance::default();
+        for (x, y) in (-6..=6).flat_map(|x| (-6..=6).map(move |y| (f64::from(x), f64::from(y)))) {
+            let start = Point::new(x, y, 1.0);
+            room.find_near(&surface, &start, 100.0);
+            assert_eq!(room.near.len(), 4);
+            let bound = |face: &NearFace| (face.centre - start).norm() - face.radius;
+            assert!(room.near.is_sorted_by_key(bound));
+        }
+        let (start, end) = (Point::new(0.0, 0.0, 1.0), Point::new(0.0, 0.0, 1.5));
+        let mut room = Clearance::default();
+        assert_eq!(room.clear_ways(&surface, &start, [end], 0.1), [0]);
+        assert!(room.near.is_empty());
+    }
+}

@@ -126,6 +126,73 @@ fn a_hair_decides_as_one_by_one() {
     }
 }
 
+/// Ends as far from a face or from a corner as the clearance asks, but for a hair, each as the only way there is.
+#[test]
+fn a_hair_of_clearance_decides_as_one_by_one() {
+    const CLEARANCE: f64 = 0.25;
+    let mut room = Clearance::default();
+    for away in [0.0, 1e6] {
+        let move_away = |q: Point| p(q.x + away, q.y - away / 3.0, q.z + away / 7.0);
+        // The centre of the first face is the origin.
+        let corners = [(-1.0, -1.0, 0.0), (2.0, -1.0, 0.0), (-1.0, 2.0, 0.0)];
+        let base = corners.map(|(x, y, z)| move_away(p(x, y, z)));
+        let surface = hull(&[base[0], base[1], base[2], move_away(p(0.0, 0.0, -2.0))]);
+        let middle = move_away(p(0.0, 0.0, -0.5));
+        let mut places = Vec::new();
+        for &[a, b, c] in surface.topology().faces() {
+            let [a, b, c] = [a, b, c].map(|corner| surface.points()[corner]);
+            let centre = Point::from((a.coords + b.coords + c.coords) / 3.0);
+            places.push((centre, (b - a).cross(&(c - a)).normalize()));
+        }
+        places.extend(
+            surface
+                .points()
+                .iter()
+                .map(|q| (*q, (q - middle).normalize())),
+        );
+        for (place, outwards) in places {
+            let start = place + outwards * 5.0;
+            for exponent in -16..=-6 {
+                for hair in [-1.0, 1.0].map(|sign| sign * 10_f64.powi(exponent)) {
+                    let end = place + outwards * (CLEARANCE + hair);
+                    assert_eq!(
+                        room.clear_ways(&surface, &start, [end], CLEARANCE),
+                        clear_one_by_one(&surface, &start, &[end], CLEARANCE),
+                        "{place} {away} {hair}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// All corners on a line but for rounding, of which alone the normals are made.
+#[test]
+fn a_needle_is_kept_clear_of() {
+    let tetrahedron = [
+        (0.0, 0.0, 0.0),
+        (1.0, 0.0, 0.0),
+        (0.0, 1.0, 0.0),
+        (0.0, 0.0, 1.0),
+    ];
+    let corners = tetrahedron.map(|(x, y, z)| p(x, y, z));
+    let topology = Arc::new(hull(&corners).topology().clone());
+    let mut room = Clearance::default();
+    for length in [1.0, 1e3, 1e6] {
+        let along = p(length / 3.0, length / 7.0, length / 11.0).coords;
+        let points = [0.0, 0.3, 0.7, 1.0].map(|part| Point::from(along * part));
+        let surface = Surface::new(&topology, &points).unwrap();
+        let start = p(0.0, 0.0, length);
+        let ends: Vec<Point> = (1..100)
+            .map(|k| Point::from(along * (f64::from(k) / 100.0)) + start.coords * 1e-3)
+            .collect();
+        assert!(
+            room.clear_ways(&surface, &start, ends, 2e-3 * length)
+                .is_empty()
+        );
+    }
+}
+
 #[test]
 fn unusable_places_and_numbers_are_answered_on_the_safe_side() {
     let surface = hull(&polygon());

@@ -106,3 +106,15 @@ fn the_same_pairs_are_factored_once() {
     assert!(!graph.read(&pairs(&[(2, 1), (2, 0)]), COUNT));
     assert_ne!(graph.factor[(0, 0)], 7.0, "made anew");
 }
+
+#[test]
+fn all_pairs_once_are_told_from_any_others() {
+    let every: Vec<_> = (0..COUNT)
+        .flat_map(|j| (0..j).map(move |i| (i, j)))
+        .collect();
+    let mut graph = PairGraph::default();
+    assert!(graph.read(&pairs(&every), COUNT));
+    assert!(!graph.read(&pairs(&every[1..]), COUNT));
+    assert!(!graph.read(&pairs(&[&every[..], &every[..]].concat()), COUNT));
+    assert!(!graph.read(&pairs(&[(0, 1)]), COUNT));
+}
