@@ -188,6 +188,15 @@ impl Document {
         self.error_in(span.unwrap_or(0..0), message)
     }
 
+    /// An error about the key at `path`, at which it points, or at the innermost table that is there.
+    pub fn error_at_key(&self, path: &str, message: impl Display) -> InputError {
+        let span = self.tables().ok().and_then(|tables| {
+            let place = key_path::find(&tables, &key_path::steps(path))?;
+            Some(place.key.unwrap_or(place.value.span()))
+        });
+        self.error_in(span.unwrap_or(0..0), message)
+    }
+
     /// Whether a span of the merged tables lies in the overrides.
     fn in_overlay(&self, span: &Range<usize>) -> bool {
         span.start > self.base.text.len()

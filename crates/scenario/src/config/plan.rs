@@ -128,7 +128,7 @@ pub(crate) fn each_once(
 ) -> Result<(), InputError> {
     for (second, planner) in planners.iter().enumerate() {
         let place = format!("{key}[{second}]");
-        registry.check(document, &place, *planner)?;
+        registry.check(*planner, || document.error_at(&place, ""))?;
         if planners[..second].contains(planner) {
             return Err(document
                 .error_at(&place, format!("the planner {planner} is listed twice"))

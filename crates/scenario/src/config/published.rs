@@ -137,7 +137,7 @@ impl Published {
         for (scenario, tables) in &published.tables {
             for (planner, column) in &tables.planners {
                 let key = format!("tables.{scenario}.planners.{planner}");
-                registry.check(document, &key, *planner)?;
+                registry.check(*planner, || document.error_at_key(&key, ""))?;
                 let (observed, steps) = (column.observed.len(), column.steps.len());
                 if observed != steps {
                     // Names may hold dots, which a path cannot; the table is near enough then.

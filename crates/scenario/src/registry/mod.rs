@@ -87,12 +87,11 @@ impl Registry {
         (look != PlannerLook::of(name)).then_some(look)
     }
 
-    /// Refuses the planner `name`, which stands at `key`, if there is none of that name.
+    /// Refuses the planner `name` if there is none of that name; `at` is an error where it stands.
     pub(crate) fn check(
         &self,
-        document: &Document,
-        key: &str,
         name: PlannerName,
+        at: impl FnOnce() -> InputError,
     ) -> Result<(), InputError> {
         if self.planner(name).is_ok() {
             return Ok(());
@@ -102,11 +101,7 @@ impl Registry {
             .iter()
             .map(|entry| entry.name.as_str())
             .collect();
-        Err(unknown_choice(
-            document.error_at(key, ""),
-            name.as_str(),
-            &known,
-        ))
+        Err(unknown_choice(at(), name.as_str(), &known))
     }
 
     /// The paths of the tables that planners have for keys of their own.
