@@ -8,30 +8,13 @@ use nalgebra::{Matrix3, Vector3};
 use crate::digits::check_motion_resolved;
 use crate::error_state::check_conversion;
 use crate::feature_update::FeatureUpdate;
+use crate::input::check_motion;
 use crate::structure_update::StructureUpdate;
 use crate::workspace::Workspace;
 use crate::{
-    Belief, ErrorState, Estimator, EstimatorError, EulerError, FilterNoise, Parallelism,
-    StructureMeasurements, UpdateReport,
+    Belief, ErrorState, Estimator, EstimatorError, EulerError, FilterNoise, Measurements,
+    Parallelism, UpdateReport,
 };
-
-/// One feature as the robot's sensor measured it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FeatureMeasurement {
-    /// Which feature.
-    pub feature: FeatureId,
-    /// z = Rᵀ(p − x) + ε, cm, body frame.
-    pub z: Vector3<f64>,
-}
-
-/// All that was measured at one step, eq. (3).
-#[derive(Clone, Copy, Debug)]
-pub struct Measurements<'a> {
-    /// zᶠ: the features that the sensor saw, each at most once.
-    pub features: &'a [FeatureMeasurement],
-    /// zᶜ: relative positions between features.
-    pub structure: StructureMeasurements<'a>,
-}
 
 /// The extended Kalman filter of Algorithm 1, with the error coordinates `E`.
 ///
@@ -224,44 +207,6 @@ fn check_correction(delta: &[f64]) -> Result<(), EstimatorError> {
     }
     Err(EstimatorError::NotFinite {
         what: "correction of the state",
-    })
-}
-
-/// The inputs of a propagation must be finite and as many as the state has features.
-pub(crate) fn check_motion(
-    belief: &Belief,
-    control: &Control,
-    feature_motion: &[Vector3<f64>],
-) -> Result<(), EstimatorError> {
-    belief.check_sizes()?;
-    let expected = belief.state.features.len();
-    if feature_motion.len() != expected {
-        return Err(EstimatorError::WrongCount {
-            what: "the motion of the features",
-            found: feature_motion.len(),
-            expected,
-        });
-    }
-    let finite = |v: &Vector3<f64>| v.iter().all(|x| x.is_finite());
-    if !(finite(&control.rotation) && finite(&control.translation)) {
-        return Err(EstimatorError::NotFinite { what: "control" });
-    }
-    if !feature_motion.iter().all(finite) {
-        return Err(EstimatorError::NotFinite {
-            what: "motion of the features",
-        });
-    }
-    Ok(())
-}
-
-/// A feature must be part of the state.
-pub(crate) fn check_feature(feature: FeatureId, count: usize) -> Result<(), EstimatorError> {
-    if feature.0 < count {
-        return Ok(());
-    }
-    Err(EstimatorError::UnknownFeature {
-        feature,
-        last: count.saturating_sub(1),
     })
 }
 

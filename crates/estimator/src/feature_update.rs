@@ -10,7 +10,7 @@ use adslam_models::{
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Point3, Vector3, Vector6};
 
 use crate::digits::{Stages, check_resolved};
-use crate::ekf::check_feature;
+use crate::input::check_feature;
 use crate::linear_algebra::set_product;
 use crate::workspace::{Workspace, add_scaled, block_rows};
 use crate::{Belief, Covariance, EstimatorError, FeatureMeasurement, Nis, Parallelism};

@@ -5,8 +5,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::prior::DecisionPrior;
 use crate::digits::check_motion_resolved;
-use crate::ekf::check_feature;
 use crate::feature_update::{Sighting, condition_on_features};
+use crate::input::check_feature;
 use crate::noise::{Zero, check_sigma};
 use crate::workspace::Workspace;
 use crate::{Belief, Covariance, EstimatorError, FilterNoise, Parallelism};

@@ -6,12 +6,13 @@ use adslam_models::{
 use nalgebra::{Matrix3, Matrix6, Point3, SMatrix, Vector3};
 
 use super::action::{ACTION_OPERATIONS, ActionTerms};
-use super::group::{SharedBlocks, VisibleSet};
+use super::group::VisibleSet;
 use super::pose_factor::semidefinite_root;
 use super::prior::DecisionPrior;
+use super::shared::SharedBlocks;
 use super::workspace::SetWorkspace;
 use crate::digits::check_gain;
-use crate::ekf::check_feature;
+use crate::input::check_feature;
 use crate::workspace::Workspace;
 use crate::{Belief, EstimatorError, FilterNoise};
 

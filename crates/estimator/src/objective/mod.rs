@@ -14,6 +14,7 @@ mod fast;
 mod group;
 mod pose_factor;
 mod prior;
+mod shared;
 mod workspace;
 
 pub use direct::{DirectTrace, PlannedMeasurement};

@@ -3,7 +3,7 @@
 use adslam_models::{Control, Pose};
 use nalgebra::{Matrix6, Point3, Vector3};
 
-use crate::ekf::check_motion;
+use crate::input::check_motion;
 use crate::structure_update::condition_on_all_pairs;
 use crate::workspace::Workspace;
 use crate::{Belief, Covariance, EstimatorError, FilterNoise, Parallelism};

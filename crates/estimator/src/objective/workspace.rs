@@ -7,7 +7,7 @@ use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::{Accum, Par};
 use nalgebra::SMatrix;
 
-use super::group::{Matrix12, SharedBlocks};
+use super::shared::{Matrix12, SharedBlocks};
 use crate::EstimatorError;
 use crate::buffer::Buffer;
 use crate::linear_algebra::{cholesky, set_product, solve_lower};

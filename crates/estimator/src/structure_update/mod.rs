@@ -11,7 +11,7 @@ mod graph;
 use adslam_models::{FeatureId, structure_measurement};
 use nalgebra::{Point3, Vector3};
 
-use crate::ekf::check_feature;
+use crate::input::check_feature;
 use crate::workspace::Workspace;
 use crate::{Belief, EstimatorError, Nis, Parallelism};
 pub(crate) use all_pairs::condition_on_all_pairs;
