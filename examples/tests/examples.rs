@@ -66,7 +66,9 @@ fn a_planner_of_ones_own_enters_runs_tables_and_replays() {
     let config = "title = \"own\"\n[[experiments]]\nscenario = \"short.toml\"\nplanners = [\"curious\", \"local\"]\n";
     fs::write(at.join("own.toml"), config).unwrap();
     printed(
-        command().args(["tables", "own.toml", "--runs", "2", "--out", "tables"]),
+        command().args([
+            "tables", "own.toml", "--runs", "2", "--out", "tables", "--html",
+        ]),
         at,
     );
     let tables = fs::read_to_string(at.join("tables/tables.md")).unwrap();
