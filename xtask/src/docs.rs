@@ -1,6 +1,7 @@
 //! `cargo xtask docs`: the files that are made from the code.
 
 mod reference;
+mod schemas;
 mod words;
 
 use std::fs;

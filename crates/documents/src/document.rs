@@ -2,8 +2,7 @@
 
 use std::fmt::Display;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::Path;
 
 use adslam_diagnostics::{InputError, read_text};
 use schemars::JsonSchema;
@@ -11,23 +10,16 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use toml::Spanned;
-use toml::de::{DeString, DeTable, DeValue, Deserializer};
+use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::explain::{Surroundings, explain, explain_syntax};
-use super::key_path;
-use super::overlay::Overlay;
-use crate::Advice;
+use crate::explain::{Surroundings, explain};
+use crate::overlay::Overlay;
+use crate::tables::{Source, in_order, parse, table_at};
+use crate::{Advice, key_path};
 
 /// Files above this size are not ours: the largest that a person writes has a few kilobytes, and the
 /// longest lists that are allowed make a megabyte or two.
 const LARGEST_FILE: u64 = 4 << 20;
-
-/// A text and where it came from.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(super) struct Source {
-    pub(super) path: PathBuf,
-    pub(super) text: Arc<str>,
-}
 
 /// A TOML document, kept as its text: it is parsed again when a place is looked up, which happens
 /// when something is wrong and costs next to nothing.
@@ -257,29 +249,4 @@ fn remove(table: &mut DeTable<'_>, path: &[key_path::Step]) {
         }
         _ => {}
     }
-}
-
-/// The entries of a table, in the order of the file.
-pub(super) fn in_order<'a, 'i>(
-    table: &'a DeTable<'i>,
-) -> Vec<(&'a Spanned<DeString<'i>>, &'a Spanned<DeValue<'i>>)> {
-    let mut entries: Vec<_> = table.iter().collect();
-    entries.sort_by_key(|(key, _)| key.span().start);
-    entries
-}
-
-pub(super) fn table_at<'a, 'i>(root: &'a DeTable<'i>, path: &str) -> Option<&'a DeTable<'i>> {
-    let place = key_path::find(root, &key_path::steps(path))?;
-    match place.value.get_ref() {
-        DeValue::Table(table) if place.whole => Some(table),
-        _ => None,
-    }
-}
-
-pub(super) fn parse(source: &Source) -> Result<DeTable<'_>, InputError> {
-    let parsed = DeTable::parse(&source.text).map_err(|error| {
-        let span = error.span().unwrap_or(0..0);
-        explain_syntax(&error).applied_to(InputError::in_text(&source.path, &source.text, span, ""))
-    })?;
-    Ok(parsed.into_inner())
 }

@@ -18,13 +18,16 @@
 mod document;
 mod explain;
 mod key_path;
+mod layered;
 mod meaning;
 mod overlay;
 mod overrides;
 mod schema;
+mod tables;
 
 pub use document::Document;
 pub use explain::unknown_choice;
 pub use key_path::json_at;
-pub use overlay::{LONGEST_LIST, Layer};
+pub use layered::LONGEST_LIST;
+pub use overlay::Layer;
 pub use schema::{Advice, paths, root_schema};

@@ -2,7 +2,7 @@
 
 use toml::de::DeValue;
 
-use super::document::in_order;
+use super::tables::in_order;
 
 /// A text that values have in common exactly if they mean the same, as 2, 2.0 and 0x2 do, and "a" and 'a'.
 pub(super) fn meaning(value: &DeValue<'_>) -> String {

@@ -1,57 +1,19 @@
 //! One run, a step at a time.
 
-use std::error::Error;
 use std::sync::Arc;
 use std::time::Instant;
 
 use adslam_agent::{Agent, StepInput};
-use adslam_estimator::{
-    Belief, EstimatorError, FeatureMeasurement, Measurements, StructureMeasurements,
-};
+use adslam_estimator::{Belief, FeatureMeasurement, Measurements, StructureMeasurements};
 use adslam_models::{Control, FeatureId, State};
-use adslam_planning::{Decision, Planner, PlanningError, Situation, features_seen_in_pose};
+use adslam_planning::{Decision, Planner, Situation, features_seen_in_pose};
 use adslam_surface::Surface;
 use nalgebra::{Matrix6, Vector3};
-use thiserror::Error as ThisError;
 
 use crate::{
-    DriftFloor, EpisodeModel, RunSummary, RunWatch, StepMetrics, StepView, SummaryBuilder, World,
-    measure_step,
+    DriftFloor, EpisodeError, EpisodeModel, RunSummary, RunWatch, StepMetrics, StepView,
+    SummaryBuilder, World, measure_step,
 };
-
-/// Why an episode cannot go on.
-#[derive(Debug, ThisError)]
-pub enum EpisodeError {
-    /// The planner failed.
-    #[error("the planner failed at step {step}: {cause}")]
-    Planning {
-        /// The step at which it had to decide.
-        step: usize,
-        /// What happened.
-        cause: PlanningError,
-    },
-    /// There is no planner to decide.
-    #[error(
-        "the episode has no planner; give it one with `set_planner`, or choose the controls yourself"
-    )]
-    NoPlanner,
-    /// The filter failed.
-    #[error("the filter failed at step {step}: {cause}")]
-    Filter {
-        /// The step that it was computing.
-        step: usize,
-        /// What happened.
-        cause: EstimatorError,
-    },
-    /// The simulated object, or the error of an estimate, cannot be computed any more.
-    #[error("step {step} cannot be simulated: {cause}")]
-    World {
-        /// The step.
-        step: usize,
-        /// What happened.
-        cause: Box<dyn Error + Send + Sync>,
-    },
-}
 
 /// A run between two steps: the world, the agent in it, and how well it does.
 pub struct Episode {

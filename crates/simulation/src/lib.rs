@@ -26,13 +26,15 @@
 //! ```
 
 mod episode;
+mod error;
 mod metrics;
 mod model;
 mod view;
 mod watch;
 mod world;
 
-pub use episode::{Episode, EpisodeError};
+pub use episode::Episode;
+pub use error::EpisodeError;
 pub use metrics::{
     DecisionTimes, DriftFloor, MEAN_NORM_OF_UNIT_GAUSSIAN, RunSummary, StepMetrics, SummaryBuilder,
     align, measure_step,

@@ -3,15 +3,12 @@
 //! A line `{{Name}}` of the template stands for the definition of that name: what it is, and a table
 //! of its keys, or a list of its choices.
 
-use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde_json::Value;
 
+use super::schemas::{Definitions, is_choice_of_tables, word_beside_tables, words};
 use super::words::{default_and_meaning, in_sentence, type_words};
-
-/// The definitions of all schemas by name.
-pub(super) type Definitions<'a> = BTreeMap<&'a str, &'a Value>;
 
 /// Fills the template in.
 ///
@@ -57,25 +54,6 @@ fn definitions(schemas: &[Value]) -> Definitions<'_> {
         }
     }
     definitions
-}
-
-/// The words of a choice of words, which the key that has it explains, and what each means.
-pub(super) fn words(schema: &Value) -> Option<impl Iterator<Item = (&str, &str)>> {
-    let words = schema.get("enum")?.as_array()?;
-    let meanings = schema.pointer("/x-taplo/docs/enumValues")?.as_array()?;
-    let pairs = words.iter().zip(meanings);
-    Some(pairs.filter_map(|(word, meaning)| Some((word.as_str()?, meaning.as_str()?))))
-}
-
-/// The word that a choice of tables has beside them.
-pub(super) fn word_beside_tables(schema: &Value) -> Option<&str> {
-    let pattern = schema["pattern"].as_str()?;
-    pattern.strip_prefix("^(")?.strip_suffix(")$")
-}
-
-/// Whether the definition is a choice of tables.
-pub(super) fn is_choice_of_tables(schema: &Value) -> bool {
-    schema["maxProperties"] == 1
 }
 
 /// What a definition is, and its keys or its choices.

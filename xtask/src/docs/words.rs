@@ -3,7 +3,7 @@
 use adslam_scenario::values::{LARGEST, SMALLEST};
 use serde_json::Value;
 
-use super::reference::{Definitions, is_choice_of_tables, word_beside_tables, words};
+use super::schemas::{Definitions, is_choice_of_tables, word_beside_tables, words};
 
 /// Whole numbers above this are as good as unlimited.
 const UNLIMITED: u64 = 1 << 53;

@@ -8,7 +8,8 @@ use adslam_diagnostics::{Failure, InputError, is_there, read_text};
 use adslam_record::{AtomicFile, FolderLock, make_folder, prepare_folder};
 use serde::Deserialize;
 
-use super::kept::{FORMAT, Grown, KeptPlan, VERSION};
+use super::growth::Grown;
+use super::kept::{FORMAT, KeptPlan, VERSION};
 use super::record::RecordFile;
 use super::{OtherBuilds, StudyPlan, StudyUnit};
 use crate::provenance::Build;
@@ -158,11 +159,6 @@ fn another_build(folder: &Path, plan: &KeptPlan, here: &Build) -> InputError {
         "its runs may differ from those that this build would do. Go on nevertheless with --accept-build, and the \
          tables will say so; or give another folder with --out",
     )
-}
-
-/// A checksum as text.
-pub(super) fn checksum(bytes: &[u8]) -> String {
-    format!("{:08x}", crc32fast::hash(bytes))
 }
 
 /// The plan of the study that the folder holds; none, if it holds nothing.

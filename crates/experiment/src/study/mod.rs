@@ -11,6 +11,7 @@
 mod content;
 mod difference;
 mod folder;
+mod growth;
 mod kept;
 mod plan;
 pub(crate) mod points;

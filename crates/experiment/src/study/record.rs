@@ -7,7 +7,6 @@ use adslam_record::AtomicFile;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::folder::checksum;
 use crate::provenance::Build;
 
 const FORMAT: &str = "adslam-record";
@@ -131,4 +130,9 @@ impl<'a> RecordFile<'a> {
             self.unit
         )
     }
+}
+
+/// A checksum as text.
+fn checksum(bytes: &[u8]) -> String {
+    format!("{:08x}", crc32fast::hash(bytes))
 }

@@ -1,5 +1,6 @@
 //! Tables: those of a run, and any others.
 
+mod column;
 mod features;
 #[cfg(feature = "parquet")]
 mod parquet_file;
@@ -7,7 +8,8 @@ mod pose_covariance;
 mod steps;
 mod table_file;
 
+pub use column::{Column, ColumnKind};
 pub use features::{FeaturesFile, LastFeatures};
 pub use pose_covariance::PoseCovarianceFile;
 pub use steps::StepsFile;
-pub use table_file::{Column, ColumnKind, TableFile};
+pub use table_file::TableFile;

@@ -13,8 +13,8 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{Type, TypePtr};
 use serde_json::Value;
 
-use super::table_file::text;
-use crate::{AtomicFile, Column, ColumnKind};
+use super::column::{Column, ColumnKind, text};
+use crate::AtomicFile;
 
 /// Rows that are written at once.
 const ROW_GROUP: usize = 16_384;

@@ -3,43 +3,13 @@
 use std::io;
 use std::path::Path;
 
+use adslam_diagnostics::Failure;
 use serde_json::{Map, Value};
 
-use crate::AtomicFile;
-
+use super::column::{Column, text};
 #[cfg(feature = "parquet")]
 use super::parquet_file::ParquetFile;
-use adslam_diagnostics::Failure;
-
-/// A column of a table.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Column {
-    /// Its head.
-    pub name: String,
-    /// What its cells are, where they are not empty.
-    pub kind: ColumnKind,
-}
-
-/// What the cells of a column are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ColumnKind {
-    /// Whole numbers.
-    Integer,
-    /// Numbers.
-    Number,
-    /// Texts, and whatever else stands there as JSON.
-    Text,
-}
-
-impl Column {
-    /// A column of this kind.
-    pub fn new(name: impl Into<String>, kind: ColumnKind) -> Self {
-        Self {
-            name: name.into(),
-            kind,
-        }
-    }
-}
+use crate::AtomicFile;
 
 /// A table that is being written as NAME.csv and NAME.jsonl, and as NAME.parquet with the feature `parquet`. A cell is a
 /// JSON value; an empty one, null in JSON, is nothing in CSV. Numbers have as many digits as tell them from all
@@ -111,15 +81,6 @@ impl TableFile {
     }
 }
 
-/// A cell as text.
-pub(super) fn text(cell: &Value) -> String {
-    match cell {
-        Value::Null => String::new(),
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::fs;
@@ -127,6 +88,7 @@ mod tests {
     use serde_json::json;
 
     use super::*;
+    use crate::ColumnKind;
 
     #[test]
     fn both_files_say_the_same() {

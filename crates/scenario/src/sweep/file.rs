@@ -10,10 +10,10 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use super::places::{Place, places, refuse_varied_constants, varied};
+use super::places::{ListedPoint, Place, places, refuse_varied_constants, varied};
 use crate::config::{MOST_RUNS_IN_ALL, Runs, each_once, first_seed, reachable};
 use crate::registry::Registry;
-use crate::values::{List, Name, Seed};
+use crate::values::{List, Seed};
 use crate::{FileKind, Scenario};
 
 /// Points that are read before it is looked whether one of them is wrong.
@@ -87,20 +87,6 @@ pub struct SweepFile {
     /// Points beside those of the grid: a `[[points]]` for each. Default: none.
     #[serde(default)]
     points: Vec<ListedPoint>,
-}
-
-/// A point with overrides of its own.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "SweepPoint")]
-pub(super) struct ListedPoint {
-    /// What it is called in the tables; no two may share it. Default: no name.
-    pub(super) label: Option<Name>,
-    /// Overrides at this point, over those of all: each key is a path into the scenario, in quotes. Default:
-    /// none.
-    #[serde(default, rename = "set")]
-    #[schemars(schema_with = "crate::schema::overrides")]
-    _set: toml::Table,
 }
 
 impl Sweep {

@@ -2,13 +2,29 @@
 
 use adslam_diagnostics::InputError;
 use adslam_documents::{Document, Layer};
+use schemars::JsonSchema;
+use serde::Deserialize;
 
-use super::file::ListedPoint;
+use crate::values::Name;
 
 /// A larger grid would not fit into memory, each point with its object.
 pub const MOST_POINTS: usize = 10_000;
 /// More listed points are better made a grid: each is looked up in the text of the file.
 const MOST_LISTED: usize = 1_000;
+
+/// A point with overrides of its own.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "SweepPoint")]
+pub(super) struct ListedPoint {
+    /// What it is called in the tables; no two may share it. Default: no name.
+    pub(super) label: Option<Name>,
+    /// Overrides at this point, over those of all: each key is a path into the scenario, in quotes. Default:
+    /// none.
+    #[serde(default, rename = "set")]
+    #[schemars(schema_with = "crate::schema::overrides")]
+    _set: toml::Table,
+}
 
 /// Where a point's overrides stand.
 pub(super) struct Place {
