@@ -23,7 +23,7 @@ fn a_run_comes_out_of_its_log_again() {
     assert_eq!(answer["gate_probability"], 0.9);
     let summary = place.json("run/summary.json");
     let numbers = answer["summary"].as_object().unwrap();
-    assert_eq!(numbers.len(), 12);
+    assert_eq!(numbers.len(), 16);
     for (name, number) in numbers {
         assert_eq!(number, &summary[name], "{name}");
     }
