@@ -1,6 +1,6 @@
 //! What the robot's sensor can reach, apart from what the surface hides.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use crate::Pose;
 
@@ -24,7 +24,19 @@ impl Sensor {
     /// Whether a point is in range and in front of the robot: first body coordinate > 0.
     #[must_use]
     pub fn in_view(&self, pose: &Pose, p_in_world: &Point3<f64>) -> bool {
-        self.in_range(&pose.position, p_in_world) && pose.body_from_world(p_in_world).x > 0.0
+        let forward = pose.orientation.rotation() * Vector3::x();
+        self.in_view_from(&pose.position, &forward, p_in_world)
+    }
+
+    /// The same for a robot at `position` whose x axis points along `forward`, a unit vector; both in the world.
+    #[must_use]
+    pub fn in_view_from(
+        &self,
+        position: &Point3<f64>,
+        forward: &Vector3<f64>,
+        p_in_world: &Point3<f64>,
+    ) -> bool {
+        forward.dot(&(p_in_world - position)) > 0.0 && self.in_range(position, p_in_world)
     }
 }
 

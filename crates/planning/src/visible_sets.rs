@@ -48,8 +48,7 @@ impl VisibleSets {
             let eye = candidate.pose.position;
             let forward = candidate.pose.orientation.rotation() * Vector3::x();
             for (id, point) in features.iter().enumerate() {
-                let ahead = forward.dot(&(point - eye)) > 0.0;
-                insert_if(ahead && sensor.in_range(&eye, point), set, id);
+                insert_if(sensor.in_view_from(&eye, &forward, point), set, id);
             }
             // Staying has the last place where the set has no such action.
             let place = candidate

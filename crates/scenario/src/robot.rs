@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::values::{Finite, List, NonNegative, Positive, Vec3};
 
-/// What the robot sees.
+/// What the robot sees: features in the half-space in front of it (positive x of its body), within the range, that the
+/// object does not hide.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sensor {
