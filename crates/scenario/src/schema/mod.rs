@@ -11,7 +11,7 @@ use crate::registry::Registry;
 use crate::sweep::SweepFile;
 use crate::{FileKind, Scenario};
 
-pub use overrides::{lists_of_overrides, overrides};
+pub(crate) use overrides::{lists_of_overrides, overrides};
 
 /// The JSON Schema of a kind of file, in draft 7, which the editors of TOML understand.
 ///

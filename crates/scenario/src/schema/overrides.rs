@@ -8,12 +8,12 @@ use crate::Scenario;
 use crate::values::LONGEST_LIST;
 
 /// Every path into a scenario, with the schema of what it leads to.
-pub fn overrides(generator: &mut SchemaGenerator) -> Schema {
+pub(crate) fn overrides(generator: &mut SchemaGenerator) -> Schema {
     table_of_paths(generator, |schema| schema)
 }
 
 /// Every path into a scenario, with the schema of a list of what may stand there.
-pub fn lists_of_overrides(generator: &mut SchemaGenerator) -> Schema {
+pub(crate) fn lists_of_overrides(generator: &mut SchemaGenerator) -> Schema {
     table_of_paths(generator, |schema| {
         json!({
             "type": "array",
