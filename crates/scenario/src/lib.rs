@@ -11,7 +11,7 @@
 //!
 //! let scenario = Scenario::load(Path::new("../../scenarios/polygon.toml"))?;
 //! assert_eq!(scenario.object.feature_count(), 14);
-//! let wrong = scenario.text().replace("steps = 100", "stesp = 100");
+//! let wrong = scenario.text().replace("steps = 100", "step = 100");
 //! let error = Scenario::parse(&wrong, Path::new("wrong.toml")).unwrap_err();
 //! assert!(error.remedy().unwrap().contains("did you mean `steps`?"));
 //! # Ok::<(), adslam_diagnostics::InputError>(())
