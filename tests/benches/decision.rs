@@ -24,8 +24,7 @@ use adslam_experiment::run::simulate;
 use adslam_models::FeatureId;
 use adslam_names::PlannerName;
 use adslam_planning::{
-    ActionScorer, Candidate, Nearest, ObjectSurfaces, PlanningNoise, SafeActions, Situation,
-    VisibleSets,
+    ActionScorer, Candidate, ObjectSurfaces, PlanningNoise, SafeActions, Situation, VisibleSets,
 };
 use adslam_record::Observer;
 use adslam_setup::{Setup, build_planner};
@@ -154,7 +153,7 @@ impl Candidates {
         let [now, after] = surfaces.place(&situation).unwrap();
         safe.find(&situation, [now, after]).unwrap();
         if let Some(goal) = &moment.goal {
-            let nearest = Nearest::from(case.setup().scenario.planners.combined.nearest());
+            let nearest = case.setup().scenario.planners.combined.nearest();
             safe.keep_nearest(goal, nearest.of(safe.candidates().len()));
         } else {
             assert_eq!(planner, PlannerName::LOCAL);

@@ -52,7 +52,8 @@ impl PlannerName {
     /// # Panics
     /// If it is no name; in a constant, that ends the compilation.
     #[must_use]
-    pub const fn literal(name: &str) -> Self {
+    #[allow(clippy::panic, reason = "in a constant it ends the compilation")]
+    pub const fn literal(name: &'static str) -> Self {
         match Self::checked(name) {
             Some(name) => name,
             None => {
