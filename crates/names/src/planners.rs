@@ -9,8 +9,8 @@ use serde::de::{Deserialize, Deserializer, Error, Visitor};
 use serde::{Serialize, Serializer};
 use thiserror::Error as ThisError;
 
-/// The name of a planner in files, on the command line and in results: lower-case letters, digits and `_`, a letter
-/// first, 31 at most.
+/// The name of a planner in files, on the command line and in results: letters, digits, `_` and `-`, a letter first, 31 at
+/// most.
 ///
 /// Any program may have planners of its own, so that a name by itself says only how a planner is called; which there are
 /// is known by a registry.
@@ -22,9 +22,7 @@ pub struct PlannerName {
 
 /// A text that cannot be the name of a planner.
 #[derive(Debug, Clone, PartialEq, Eq, ThisError)]
-#[error(
-    "{0:?} is no name of a planner; write up to 31 small letters, digits and _, a letter first"
-)]
+#[error("{0:?} is no name of a planner; write up to 31 letters, digits, _ and -, a letter first")]
 pub struct BadPlannerName(String);
 
 impl PlannerName {
@@ -57,7 +55,7 @@ impl PlannerName {
         match Self::checked(name) {
             Some(name) => name,
             None => {
-                panic!("a planner's name has up to 31 small letters, digits and _, a letter first")
+                panic!("a planner's name has up to 31 letters, digits, _ and -, a letter first")
             }
         }
     }
@@ -72,13 +70,13 @@ impl PlannerName {
 
     const fn checked(text: &str) -> Option<Self> {
         let given = text.as_bytes();
-        if given.is_empty() || given.len() > Self::LONGEST || !given[0].is_ascii_lowercase() {
+        if given.is_empty() || given.len() > Self::LONGEST || !given[0].is_ascii_alphabetic() {
             return None;
         }
         let mut bytes = [0; Self::LONGEST];
         let mut i = 0;
         while i < given.len() {
-            if !(given[i].is_ascii_lowercase() || given[i].is_ascii_digit() || given[i] == b'_') {
+            if !(given[i].is_ascii_alphanumeric() || given[i] == b'_' || given[i] == b'-') {
                 return None;
             }
             bytes[i] = given[i];
@@ -210,14 +208,14 @@ mod tests {
 
     #[test]
     fn a_name_is_kept_as_it_is_given() {
-        for text in ["local", "a", "tour_2", &"x".repeat(31)] {
+        for text in ["local", "a", "tour_2", "Next-best", &"x".repeat(31)] {
             assert_eq!(PlannerName::new(text).unwrap().to_string(), text);
             let json = serde_json::to_string(&PlannerName::new(text).unwrap()).unwrap();
             assert_eq!(json, format!("{text:?}"));
             let read: PlannerName = serde_json::from_str(&json).unwrap();
             assert_eq!(read.as_str(), text);
         }
-        for text in ["", "Local", "2nd", "a-b", "a b", "σ", &"x".repeat(32)] {
+        for text in ["", "2nd", "a.b", "a b", "σ", &"x".repeat(32)] {
             assert!(PlannerName::new(text).is_err(), "{text}");
             assert!(serde_json::from_str::<PlannerName>(&format!("{text:?}")).is_err());
         }

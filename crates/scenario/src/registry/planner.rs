@@ -98,15 +98,20 @@ impl PlannerEntry {
         K: Default + Serialize + DeserializeOwned + JsonSchema,
     {
         let entry = Self::new(name, move |context| {
-            let keys = context.scenario.planners.own.get(&name);
-            // They were written by K itself when the scenario was read.
-            let keys = keys.and_then(|keys| K::deserialize(keys).ok());
-            build(keys.unwrap_or_default(), context)
+            let keys = match context.scenario.planners.own.get(&name) {
+                Some(keys) => K::deserialize(keys).map_err(|error| Box::new(error) as Box<_>)?,
+                None => K::default(),
+            };
+            build(keys, context)
         });
         let keys = Keys {
             read: |document, table| {
                 let keys: K = document.deserialize_at(table)?.unwrap_or_default();
-                Ok(serde_json::to_value(keys).unwrap_or_default())
+                serde_json::to_value(keys).map_err(|error| {
+                    let message =
+                        format!("the keys of the planner cannot be written down: {error}");
+                    document.error_at(table, message)
+                })
             },
             schema: root_schema::<K>,
         };
@@ -127,7 +132,7 @@ impl PlannerEntry {
 
     /// With a sentence that says what it does.
     #[must_use]
-    pub fn that(self, meaning: &str) -> Self {
+    pub fn described_as(self, meaning: &str) -> Self {
         Self {
             meaning: meaning.to_owned(),
             ..self

@@ -21,22 +21,22 @@ pub(super) fn planners() -> Vec<PlannerEntry> {
                 translation: *path.translation_cm,
             })))
         })
-        .that("The same control at every step."),
+        .described_as("The same control at every step."),
         PlannerEntry::new(PlannerName::LOCAL, move |context| {
             let noise = assumed(context.scenario.local_planning_sigma_cm());
             Ok(Box::new(LocalPlanner::new(noise)))
         })
-        .that("Greedy: the smallest trace of the covariance, section III-B."),
+        .described_as("Greedy: the smallest trace of the covariance, section III-B."),
         PlannerEntry::new(PlannerName::GLOBAL, |context| {
             Ok(Box::new(GlobalPlanner::new(context.goals()?)))
         })
-        .that("Through viewpoints that see everything, section III-C."),
+        .described_as("Through viewpoints that see everything, section III-C."),
         PlannerEntry::new(PlannerName::COMBINED, move |context| {
             let goals = context.goals()?;
             let nearest = context.scenario.planners.combined.nearest();
             let noise = assumed(context.scenario.combined_planning_sigma_cm());
             Ok(Box::new(CombinedPlanner::new(goals, nearest, noise)))
         })
-        .that("Both, section III-D."),
+        .described_as("Both, section III-D."),
     ]
 }
