@@ -8,12 +8,18 @@ use std::error::Error;
 use std::io::{self, BufReader, Write};
 use std::path::Path;
 
+use adslam_agent::Estimators;
 use adslam_record::log::{FilterChoice, Replay};
 use serde_json::json;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let name = Path::new("standard input");
-    let mut agent = Replay::new(BufReader::new(io::stdin()), name, FilterChoice::default())?;
+    let mut agent = Replay::new(
+        BufReader::new(io::stdin()),
+        name,
+        FilterChoice::default(),
+        &Estimators::standard(),
+    )?;
     let mut out = io::stdout().lock();
     while let Some(step) = agent.advance()? {
         let belief = agent.belief();

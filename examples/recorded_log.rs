@@ -7,13 +7,14 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::PathBuf;
 
+use adslam_agent::Estimators;
 use adslam_diagnostics::Interrupt;
 use adslam_names::{EstimatorName, Named};
 use adslam_record::log::{FilterChoice, TailPolicy, filter_log};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = PathBuf::from(std::env::args().nth(1).ok_or("give the path of a log")?);
-    for &estimator in EstimatorName::ALL {
+    for estimator in EstimatorName::OURS {
         let choice = FilterChoice {
             estimator: Some(estimator),
             ..FilterChoice::default()
@@ -24,6 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             log,
             &path,
             choice,
+            &Estimators::standard(),
             TailPolicy::Refuse,
             &Interrupt::new(),
             each,

@@ -8,7 +8,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use adslam_agent::GateProbability;
+use adslam_agent::{Estimators, GateProbability};
 use adslam_diagnostics::{Failure, InputError};
 use adslam_experiment::sweep::SweepPlan;
 use adslam_names::{EstimatorName, LengthUnit, Named};
@@ -166,7 +166,7 @@ fn published(bytes: &[u8]) {
 }
 
 fn log(bytes: &[u8]) {
-    for &estimator in EstimatorName::ALL {
+    for estimator in EstimatorName::OURS {
         filter(
             bytes,
             FilterChoice {
@@ -179,7 +179,12 @@ fn log(bytes: &[u8]) {
 }
 
 fn filter(bytes: &[u8], choice: FilterChoice) {
-    let mut replay = match Replay::new(bytes, Path::new("log.jsonl"), choice) {
+    let mut replay = match Replay::new(
+        bytes,
+        Path::new("log.jsonl"),
+        choice,
+        &Estimators::standard(),
+    ) {
         Ok(replay) => replay,
         Err(error) => return shown(error),
     };

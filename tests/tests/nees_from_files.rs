@@ -92,7 +92,7 @@ fn error(estimator: EstimatorName, truth: &Vector6<f64>, estimate: &Vector6<f64>
     let theta = rotation_vector(&(rotation(truth) * rotation(estimate).transpose()));
     let turned = axes(estimate).try_inverse().unwrap() * theta;
     let (angles, position) = match estimator {
-        EstimatorName::EulerEkf => {
+        EstimatorName::EULER_EKF => {
             let wrapped = |x: f64| x.sin().atan2(x.cos());
             let one = difference.fixed_rows::<3>(0).map(wrapped);
             // The same orientation by other angles.
@@ -105,8 +105,8 @@ fn error(estimator: EstimatorName, truth: &Vector6<f64>, estimate: &Vector6<f64>
             };
             (angles, of_position)
         }
-        EstimatorName::So3Ekf => (turned, of_position),
-        EstimatorName::RightInvariantEkf => (turned, inverse_jacobian(&theta) * of_position),
+        EstimatorName::SO3_EKF => (turned, of_position),
+        EstimatorName::RIGHT_INVARIANT_EKF => (turned, inverse_jacobian(&theta) * of_position),
     };
     let mut error = Vector6::zeros();
     error.fixed_rows_mut::<3>(0).copy_from(&angles);
@@ -125,7 +125,7 @@ fn assert_near(found: f64, expected: f64) {
 #[test]
 fn pose_nees_of_every_step_and_estimator() {
     let mut means = Vec::new();
-    for &estimator in EstimatorName::ALL {
+    for estimator in EstimatorName::OURS {
         let filter = format!("[filter]\nestimator = \"{estimator}\"\n\n[noise]");
         let noisy = "rotation_sigma_rad = 0.05";
         let setup = setup(

@@ -39,4 +39,4 @@ mod agent;
 mod estimators;
 
 pub use agent::{Agent, StepInput};
-pub use estimators::{GateProbability, build_estimator};
+pub use estimators::{EstimatorEntry, EstimatorNameTaken, Estimators, GateProbability};

@@ -4,6 +4,7 @@ mod files;
 mod many;
 mod single;
 
+use adslam_names::{EstimatorName, PlannerName};
 use adslam_scenario::registry::Registry;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
@@ -12,7 +13,7 @@ pub use files::{CheckArgs, MeshArgs, NewArgs, NewFile, SchemaKind};
 pub use many::{ConsistencyArgs, SelectionArgs, SweepArgs, TablesArgs};
 pub use single::{ExportArgs, ExportFormat, FilterArgs, ReplayArgs, RunArgs};
 
-use crate::named::PlannerParser;
+use crate::named::RegistryParser;
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -148,13 +149,22 @@ pub enum Command {
 }
 
 impl Arguments {
-    /// The command line of a program with these planners.
+    /// The command line of a program with this registry.
     #[must_use]
     pub fn command_with(registry: &Registry) -> clap::Command {
-        let parser = PlannerParser::new(registry.clone());
-        let with_planners =
-            |run: clap::Command| run.mut_arg("planner", |planner| planner.value_parser(parser));
-        Self::command().mut_subcommand("run", with_planners)
+        let planners = RegistryParser::<PlannerName>::new(registry.clone());
+        let estimators = RegistryParser::<EstimatorName>::new(registry.clone());
+        let of_filter = estimators.clone();
+        Self::command()
+            .mut_subcommand("run", |run| {
+                run.mut_arg("planner", |planner| planner.value_parser(planners))
+            })
+            .mut_subcommand("filter", |filter| {
+                filter.mut_arg("estimator", |one| one.value_parser(of_filter))
+            })
+            .mut_subcommand("consistency", |consistency| {
+                consistency.mut_arg("estimators", |one| one.value_parser(estimators))
+            })
     }
 }
 

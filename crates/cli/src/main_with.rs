@@ -37,7 +37,7 @@ impl Command {
             Self::Run(args) => commands::run(args, registry, interrupt),
             Self::Replay(args) => commands::replay(args),
             Self::Export(args) => commands::export(args),
-            Self::Filter(args) => commands::filter(args, interrupt),
+            Self::Filter(args) => commands::filter(args, registry, interrupt),
             Self::Tables(args) => commands::tables(args, registry, interrupt),
             Self::Sweep(args) => commands::sweep(args, registry, interrupt),
             Self::Consistency(args) => commands::consistency(args, registry, interrupt),

@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::marker::PhantomData;
 
-use adslam_names::{Named, PlannerName};
+use adslam_names::{EstimatorName, Named, PlannerName, UnknownName};
 use adslam_scenario::registry::Registry;
 use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
 use clap::{Arg, Command, Error};
@@ -43,36 +43,81 @@ impl<T: Named + Send + Sync> TypedValueParser for NameParser<T> {
     }
 }
 
-/// Reads the name of a planner that the registry knows.
-#[derive(Clone, Default)]
-pub(crate) struct PlannerParser {
-    registry: Registry,
+/// What a registry has names for.
+pub(crate) trait Registered: Copy + Send + Sync + 'static {
+    /// The one of that name.
+    fn named(registry: &Registry, text: &str) -> Result<Self, UnknownName>;
+
+    /// All names.
+    fn all(registry: &Registry) -> Vec<String>;
 }
 
-impl PlannerParser {
-    pub(crate) const fn new(registry: Registry) -> Self {
-        Self { registry }
+impl Registered for PlannerName {
+    fn named(registry: &Registry, text: &str) -> Result<Self, UnknownName> {
+        registry.planner_named(text)
+    }
+
+    fn all(registry: &Registry) -> Vec<String> {
+        let planners = registry.planners().iter();
+        planners.map(|entry| entry.name.to_string()).collect()
     }
 }
 
-impl TypedValueParser for PlannerParser {
-    type Value = PlannerName;
+impl Registered for EstimatorName {
+    fn named(registry: &Registry, text: &str) -> Result<Self, UnknownName> {
+        registry.estimators().get(text).map(|entry| entry.name)
+    }
+
+    fn all(registry: &Registry) -> Vec<String> {
+        let estimators = registry.estimators().all().iter();
+        estimators.map(|entry| entry.name.to_string()).collect()
+    }
+}
+
+/// Reads a name that the registry knows.
+pub(crate) struct RegistryParser<T> {
+    registry: Registry,
+    kind: PhantomData<fn() -> T>,
+}
+
+impl<T> RegistryParser<T> {
+    pub(crate) const fn new(registry: Registry) -> Self {
+        Self {
+            registry,
+            kind: PhantomData,
+        }
+    }
+}
+
+impl<T> Default for RegistryParser<T> {
+    fn default() -> Self {
+        Self::new(Registry::standard())
+    }
+}
+
+impl<T> Clone for RegistryParser<T> {
+    fn clone(&self) -> Self {
+        Self::new(self.registry.clone())
+    }
+}
+
+impl<T: Registered> TypedValueParser for RegistryParser<T> {
+    type Value = T;
 
     fn parse_ref(
         &self,
         command: &Command,
         argument: Option<&Arg>,
         value: &OsStr,
-    ) -> Result<PlannerName, Error> {
+    ) -> Result<T, Error> {
         let registry = self.registry.clone();
         StringValueParser::new()
-            .try_map(move |name| registry.planner_named(&name))
+            .try_map(move |name| T::named(&registry, &name))
             .parse_ref(command, argument, value)
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        let planners = self.registry.planners().iter();
-        let names = planners.map(|entry| PossibleValue::new(entry.name.to_string()));
-        Some(Box::new(names))
+        let names = T::all(&self.registry).into_iter();
+        Some(Box::new(names.map(PossibleValue::new)))
     }
 }

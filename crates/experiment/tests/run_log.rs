@@ -5,6 +5,7 @@
 use std::fs;
 use std::path::Path;
 
+use adslam_agent::Estimators;
 use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::run::simulate;
 use adslam_names::{EstimatorName, LengthUnit, Named, PlannerName};
@@ -88,6 +89,7 @@ fn the_same_bits(scenario: &Scenario, planner: PlannerName) -> (RunSummary, Stri
         log.as_bytes(),
         &path,
         FilterChoice::default(),
+        &Estimators::standard(),
         TailPolicy::Refuse,
         &interrupt,
         &mut |line| {
@@ -117,7 +119,7 @@ fn the_same_bits(scenario: &Scenario, planner: PlannerName) -> (RunSummary, Stri
 
 #[test]
 fn every_estimator_in_both_environments() {
-    for &estimator in EstimatorName::ALL {
+    for estimator in EstimatorName::OURS {
         for name in ["polygon.toml", "heart.toml"] {
             for kind in ["fresh", "accumulating"] {
                 let noise = format!("[noise]\ndeformation_noise = \"{kind}\"");
@@ -132,7 +134,7 @@ fn every_estimator_in_both_environments() {
 fn with_a_gate_and_faults() {
     let more = format!("gate_probability = 0.99\n{FAULTS}");
     let mut rejected = 0;
-    for &estimator in EstimatorName::ALL {
+    for estimator in EstimatorName::OURS {
         let scenario = scenario("polygon.toml", estimator, ["", ""], &more);
         let (run, log) = the_same_bits(&scenario, PlannerName::PREDETERMINED);
         rejected += run.rejected_measurements;
@@ -149,7 +151,7 @@ fn with_a_gate_and_faults() {
 #[test]
 fn without_structure() {
     let more = "structure = \"none\"\n";
-    let scenario = scenario("polygon.toml", EstimatorName::EulerEkf, ["", ""], more);
+    let scenario = scenario("polygon.toml", EstimatorName::EULER_EKF, ["", ""], more);
     let (_, log) = the_same_bits(&scenario, PlannerName::LOCAL);
     assert!(!log.contains("structure_sums"));
 }
@@ -158,7 +160,7 @@ fn without_structure() {
 #[test]
 fn another_filter_than_the_log_says() {
     let more = "gate_probability = 0.01\n";
-    let scenario = scenario("polygon.toml", EstimatorName::So3Ekf, ["", ""], more);
+    let scenario = scenario("polygon.toml", EstimatorName::SO3_EKF, ["", ""], more);
     let (_, log) = the_same_bits(&scenario, PlannerName::LOCAL);
     let filtered = |choice| {
         let mut lines = Vec::new();
@@ -166,6 +168,7 @@ fn another_filter_than_the_log_says() {
             log.as_bytes(),
             Path::new("log"),
             choice,
+            &Estimators::standard(),
             TailPolicy::Refuse,
             &Interrupt::new(),
             &mut |line| {
@@ -176,14 +179,14 @@ fn another_filter_than_the_log_says() {
         (summary.unwrap(), lines)
     };
     let (recorded, lines) = filtered(FilterChoice::default());
-    assert_eq!(recorded.estimator, EstimatorName::So3Ekf);
+    assert_eq!(recorded.estimator, EstimatorName::SO3_EKF);
     assert_eq!(recorded.gate_probability.map(|p| p.get()), Some(0.01));
     assert!(recorded.numbers.rejected_measurements > 0);
     let (other, others) = filtered(FilterChoice {
-        estimator: Some(EstimatorName::EulerEkf),
+        estimator: Some(EstimatorName::EULER_EKF),
         gate: GateChoice::All,
     });
-    assert_eq!(other.estimator, EstimatorName::EulerEkf);
+    assert_eq!(other.estimator, EstimatorName::EULER_EKF);
     assert_eq!(other.gate_probability, None);
     assert_eq!(other.numbers.rejected_measurements, 0);
     assert_ne!(lines, others);
@@ -192,7 +195,7 @@ fn another_filter_than_the_log_says() {
 /// All that a log's header holds is read back.
 #[test]
 fn the_header_says_where_it_comes_from() {
-    let scenario = scenario("polygon.toml", EstimatorName::So3Ekf, ["", ""], "");
+    let scenario = scenario("polygon.toml", EstimatorName::SO3_EKF, ["", ""], "");
     let (_, log) = the_same_bits(&scenario, PlannerName::GLOBAL);
     let reader = LogReader::new(log.as_bytes(), Path::new("log")).unwrap();
     let source = reader.header().source.clone().unwrap();

@@ -1,6 +1,6 @@
 //! Consistency over many runs: the mean of a squared error or innovation against the interval of χ².
 
-use adslam_names::EstimatorName;
+use adslam_names::{EstimatorName, Look as EstimatorLook};
 
 use crate::axis::Axis;
 use crate::chart::Chart;
@@ -12,24 +12,14 @@ use crate::methods::below_legend;
 use crate::shape::{Look, Shape};
 use crate::style::{AXIS, BAND, Colour, FULL_WIDTH, Stroke};
 
-/// The line of an estimator: colours of Okabe and Ito that no method has, and other dashes where they lie
-/// over each other.
-const fn stroke(estimator: EstimatorName) -> Stroke {
-    match estimator {
-        EstimatorName::EulerEkf => Stroke::solid(Colour(0xe6, 0x9f, 0x00), 1.6),
-        EstimatorName::So3Ekf => Stroke::dashed(Colour(0xcc, 0x79, 0xa7), 1.4, (5.0, 2.0)),
-        EstimatorName::RightInvariantEkf => {
-            Stroke::dashed(Colour(0x00, 0x00, 0x00), 1.2, (1.5, 1.5))
-        }
-    }
-}
-
-/// What an estimator is called in a figure.
-const fn name(estimator: EstimatorName) -> &'static str {
-    match estimator {
-        EstimatorName::EulerEkf => "Euler EKF",
-        EstimatorName::So3Ekf => "SO(3) EKF",
-        EstimatorName::RightInvariantEkf => "Right-invariant EKF",
+/// The line of an estimator, with dashes where ours lie over each other.
+fn stroke(curve: &ConsistencyCurve) -> Stroke {
+    let [red, green, blue] = curve.estimator_look.colour;
+    let colour = Colour(red, green, blue);
+    match curve.estimator {
+        EstimatorName::SO3_EKF => Stroke::dashed(colour, 1.4, (5.0, 2.0)),
+        EstimatorName::RIGHT_INVARIANT_EKF => Stroke::dashed(colour, 1.2, (1.5, 1.5)),
+        _ => Stroke::solid(colour, 1.6),
     }
 }
 
@@ -58,6 +48,8 @@ pub struct ConsistencyCurve {
     pub method: Method,
     /// The estimator.
     pub estimator: EstimatorName,
+    /// What it looks like.
+    pub estimator_look: EstimatorLook,
     /// The steps that have one.
     pub steps: Vec<BandedMean>,
 }
@@ -105,8 +97,7 @@ pub fn consistency(of_runs: &ConsistencyCurves<'_>) -> Result<Figure, FigureErro
     let one = Look::Line(Stroke::dashed(AXIS, 1.0, (1.5, 2.0)));
     let mut legend: Vec<Entry> = Vec::new();
     for curve in curves {
-        let estimator = curve.estimator;
-        let entry = Entry::new(Look::Line(stroke(estimator)), name(estimator));
+        let entry = Entry::new(Look::Line(stroke(curve)), &*curve.estimator_look.label);
         if legend.iter().all(|known| known.label != entry.label) {
             legend.push(entry);
         }
@@ -142,7 +133,7 @@ pub fn consistency(of_runs: &ConsistencyCurves<'_>) -> Result<Figure, FigureErro
             shapes.push(Shape::new(vec![(0.0, 1.0), (last as f64, 1.0)], one));
             for curve in of(method) {
                 let points = curve.steps.iter().map(|s| (s.step as f64, s.mean));
-                shapes.push(Shape::line(points.collect(), stroke(curve.estimator)));
+                shapes.push(Shape::line(points.collect(), stroke(curve)));
             }
             // Each panel has its own axis: where one planner loses its way the others would be flat lines.
             let shown = of(method).flat_map(|curve| &curve.steps);

@@ -1,6 +1,6 @@
 //! A method, as all figures show it.
 
-use adslam_names::{PlannerLook, PlannerName};
+use adslam_names::{Look, PlannerName};
 use adslam_record::RunHistory;
 
 use crate::style::{AXIS, Colour, Stroke};
@@ -9,16 +9,16 @@ use crate::style::{AXIS, Colour, Stroke};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Method {
     name: PlannerName,
-    look: PlannerLook,
+    look: Look,
 }
 
 impl Method {
     /// A planner with a look of its own, or that by which all know it.
     #[must_use]
-    pub fn new(name: PlannerName, look: Option<PlannerLook>) -> Self {
+    pub fn new(name: PlannerName, look: Option<Look>) -> Self {
         Self {
             name,
-            look: look.unwrap_or_else(|| PlannerLook::of(name)),
+            look: look.unwrap_or_else(|| Look::of_planner(name)),
         }
     }
 
@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn a_planner_of_ones_own_has_its_own_look() {
         let name = PlannerName::literal("frontier");
-        let own = Method::new(name, Some(PlannerLook::new("Frontier based", [1, 2, 3])));
+        let own = Method::new(name, Some(Look::new("Frontier based", [1, 2, 3])));
         assert_eq!(
             (own.label(), own.short_label().as_str()),
             ("Frontier based", "Fronti.")

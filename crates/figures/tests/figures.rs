@@ -11,7 +11,7 @@ use adslam_figures::{
     BandedMean, ConsistencyCurve, ConsistencyCurves, Figure, Method, RunsOfMethod, boxes,
     comparison, consistency, coverage, environments, estimates, nees, pose_error,
 };
-use adslam_names::{EstimatorName, PlannerName};
+use adslam_names::{EstimatorName, Look, PlannerName};
 use adslam_record::{HistoryRecorder, RunHistory};
 use adslam_scenario::Scenario;
 use adslam_scenario::config::{Config, Selection};
@@ -208,6 +208,7 @@ fn consistency_has_a_panel_for_each_planner_and_a_line_for_each_estimator() {
     let curve = |estimator, planner, nees| ConsistencyCurve {
         method: Method::new(planner, None),
         estimator,
+        estimator_look: Look::of_estimator(estimator),
         steps: (2..4)
             .map(|step| BandedMean {
                 step,
@@ -223,9 +224,9 @@ fn consistency_has_a_panel_for_each_planner_and_a_line_for_each_estimator() {
         runs: 2,
         confidence: 0.99,
         curves: vec![
-            curve(EstimatorName::EulerEkf, PlannerName::LOCAL, 4.0),
-            curve(EstimatorName::RightInvariantEkf, PlannerName::LOCAL, 7.0),
-            curve(EstimatorName::EulerEkf, PlannerName::GLOBAL, 900.0),
+            curve(EstimatorName::EULER_EKF, PlannerName::LOCAL, 4.0),
+            curve(EstimatorName::RIGHT_INVARIANT_EKF, PlannerName::LOCAL, 7.0),
+            curve(EstimatorName::EULER_EKF, PlannerName::GLOBAL, 900.0),
         ],
     };
     let figure = consistency(&curves).unwrap();

@@ -2,23 +2,25 @@
 //! was given.
 //!
 //! ```
-//! use adslam_names::{EstimatorName, Named, PlannerName};
+//! use adslam_names::{LengthUnit, Named, PlannerName};
 //!
 //! assert_eq!(PlannerName::new("local"), Ok(PlannerName::LOCAL));
-//! let error = EstimatorName::named("so3_ekv").unwrap_err();
-//! assert!(error.to_string().contains("did you mean so3_ekf?"));
+//! let error = LengthUnit::named("cn").unwrap_err();
+//! assert!(error.to_string().contains("did you mean cm?"));
 //! ```
 
-mod estimators;
 mod listed;
+mod look;
 mod named;
 mod near;
-mod planners;
+mod registered;
+mod short_name;
 mod unit;
 
-pub use estimators::EstimatorName;
 pub use listed::numbers;
+pub use look::Look;
 pub use named::{Named, UnknownName};
 pub use near::nearest;
-pub use planners::{BadPlannerName, PlannerLook, PlannerName};
+pub use registered::{EstimatorName, PlannerName};
+pub use short_name::BadName;
 pub use unit::LengthUnit;

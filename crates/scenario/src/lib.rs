@@ -149,6 +149,9 @@ impl Scenario {
         let mut scenario: Self = document.deserialize_without(&registry.own_tables())?;
         scenario.planners.own = registry.own_keys(&document)?.into_iter().collect();
         scenario.registry = registry.clone();
+        registry.check_estimator(scenario.filter.estimator, || {
+            document.error_at("filter.estimator", "")
+        })?;
         checks::check(&scenario, &document)?;
         if let Object::Mesh(mesh) = &mut scenario.object {
             let folder = document.path().parent().unwrap_or(Path::new(""));

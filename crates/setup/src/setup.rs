@@ -6,7 +6,7 @@ use adslam_agent::GateProbability;
 use adslam_diagnostics::InputError;
 use adslam_estimator::FilterNoise;
 use adslam_models::{EulerAngles, Pose, Sensor};
-use adslam_names::{EstimatorName, PlannerName};
+use adslam_names::{EstimatorName, PlannerName, UnknownName};
 use adslam_planning::{ActionSet, PlanningModel};
 use adslam_scenario as scenario;
 use adslam_scenario::{Scenario, Structure, values};
@@ -96,6 +96,10 @@ impl Setup {
             actions: action_set(&robot.actions),
             clearance: *robot.clearance_cm,
         };
+        let estimator = scenario.registry().estimators();
+        let estimator = estimator.get(scenario.filter.estimator.as_str());
+        let estimator =
+            estimator.map_err(|unknown| scenario.error_at("filter.estimator", unknown))?;
         let model = EpisodeModel {
             name: scenario.name.to_string(),
             steps: scenario.steps.get(),
@@ -108,7 +112,7 @@ impl Setup {
                 faults: faults(&scenario.mismatch),
             }),
             planning: Arc::new(planning),
-            estimator: scenario.filter.estimator,
+            estimator: estimator.clone(),
             gate_probability: scenario
                 .filter
                 .gate_probability
@@ -129,13 +133,17 @@ impl Setup {
         setup.checked()
     }
 
-    /// The same with another estimator.
-    #[must_use]
-    pub fn with_estimator(&self, estimator: EstimatorName) -> Self {
+    /// The same with another estimator of the registry.
+    ///
+    /// # Errors
+    /// Where it has none of that name.
+    pub fn with_estimator(&self, estimator: EstimatorName) -> Result<Self, UnknownName> {
+        let entry = self.scenario.registry().estimators();
+        let entry = entry.get(estimator.as_str())?.clone();
         let mut setup = self.clone();
-        setup.model.estimator = estimator;
+        setup.model.estimator = entry;
         setup.scenario.filter.estimator = estimator;
-        setup
+        Ok(setup)
     }
 
     /// The scenario's name.
@@ -221,4 +229,58 @@ fn action_set(actions: &scenario::Actions) -> ActionSet {
         actions.max_roll_deg.to_radians(),
         actions.max_pitch_deg.to_radians(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use adslam_agent::EstimatorEntry;
+    use adslam_estimator::EstimatorKind;
+    use adslam_scenario::registry::Registry;
+
+    use super::*;
+
+    const POLYGON: &str = include_str!("../../../scenarios/polygon.toml");
+
+    /// One that is the paper's under another name gives the paper's run.
+    #[test]
+    fn an_estimator_of_ones_own_follows_the_robot() {
+        let mine = EstimatorName::literal("mine");
+        let entry = EstimatorEntry::new(mine, |noise, _, parallelism| {
+            EstimatorKind::EulerEkf.build(noise, None, parallelism)
+        });
+        let registry = Registry::standard().with_estimator(entry.clone()).unwrap();
+        assert!(
+            registry.clone().with_estimator(entry).is_err(),
+            "its name is taken"
+        );
+        let text = format!("{POLYGON}\n[filter]\nestimator = \"mine\"\n");
+        let path = Path::new("polygon.toml");
+        let scenario = Scenario::parse_with(&text, path, &registry).unwrap();
+        let setup = Setup::new(&scenario).unwrap();
+        assert_eq!(setup.model.estimator.name, mine);
+        let error = |setup: &Setup| {
+            let (mut episode, _) = setup.episode(PlannerName::LOCAL, 1).unwrap();
+            let decision = episode.decide().unwrap();
+            episode.take(&decision.control).unwrap();
+            episode.summary().pose_error_mean
+        };
+        let papers = Setup::new(&Scenario::parse(POLYGON, path).unwrap()).unwrap();
+        assert_eq!(error(&setup).to_bits(), error(&papers).to_bits());
+        let other = setup.with_estimator(EstimatorName::SO3_EKF).unwrap();
+        assert_ne!(error(&other).to_bits(), error(&papers).to_bits());
+        assert!(
+            papers.with_estimator(mine).is_err(),
+            "it is not in that registry"
+        );
+
+        let refused = Scenario::parse(&text, path).unwrap_err();
+        assert_eq!(refused.pointed_at(), Some("\"mine\""));
+        assert!(
+            refused
+                .message()
+                .contains("`mine` is not one of the choices")
+        );
+    }
 }

@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use adslam_agent::{GateProbability, build_estimator};
+use adslam_agent::{EstimatorEntry, GateProbability};
 use adslam_deformation::ObjectMotion;
 use adslam_estimator::{Estimator, EstimatorError, Parallelism};
-use adslam_names::EstimatorName;
 use adslam_planning::PlanningModel;
 use adslam_surface::Mesh;
 use nalgebra::Vector3;
@@ -26,7 +25,7 @@ pub struct EpisodeModel {
     /// What the planners know; its noise is the filter's.
     pub planning: Arc<PlanningModel>,
     /// What follows robot and object.
-    pub estimator: EstimatorName,
+    pub estimator: EstimatorEntry,
     /// The part of good feature measurements that the filter believes; none where it believes all.
     pub gate_probability: Option<GateProbability>,
     /// The filter's sigma of the first feature positions, cm.
@@ -45,7 +44,7 @@ impl EpisodeModel {
     pub fn build_estimator(&self) -> Result<Box<dyn Estimator>, EstimatorError> {
         let (noise, gate) = (self.planning.noise, self.gate_probability);
         // Many episodes are stepped at once, so that each has one thread.
-        build_estimator(self.estimator, noise, gate, Parallelism::Sequential)
+        self.estimator.build(noise, gate, Parallelism::Sequential)
     }
 
     /// r_t t + r_d d for each feature from step `n` to `n + 1`, as filter and planners know it, cm.

@@ -6,7 +6,7 @@ use adslam_names::EstimatorName;
 use adslam_scenario::config::Selection;
 use clap::Args;
 
-use crate::named::NameParser;
+use crate::named::RegistryParser;
 
 /// `adslam tables`
 #[derive(Debug, Args)]
@@ -94,7 +94,7 @@ pub struct ConsistencyArgs {
     #[command(flatten)]
     pub selection: SelectionArgs,
     /// Only this estimator: euler_ekf, so3_ekf or right_invariant_ekf; may be given again. All where not given
-    #[arg(long = "estimator", value_name = "NAME", value_parser = NameParser::<EstimatorName>::new())]
+    #[arg(long = "estimator", value_name = "NAME", value_parser = RegistryParser::<EstimatorName>::default())]
     pub estimators: Vec<EstimatorName>,
     /// The folder to write to, and to go on in; made if it does not exist
     #[arg(long, value_name = "DIR")]

@@ -9,7 +9,7 @@ use adslam_record::log::GateChoice;
 use adslam_scenario::values::{self, ValueError};
 use clap::{Args, ValueEnum};
 
-use crate::named::{NameParser, PlannerParser};
+use crate::named::{NameParser, RegistryParser};
 
 /// `adslam run`
 #[derive(Debug, Args)]
@@ -17,7 +17,7 @@ pub struct RunArgs {
     /// The scenario file: what the world is
     pub scenario: PathBuf,
     /// The planner
-    #[arg(long, value_name = "NAME", value_parser = PlannerParser::default())]
+    #[arg(long, value_name = "NAME", value_parser = RegistryParser::<PlannerName>::default())]
     pub planner: PlannerName,
     /// Seed of all noise; every planner meets the same noise at the same seed
     #[arg(long, default_value_t = 1, value_name = "N")]
@@ -113,7 +113,7 @@ pub struct FilterArgs {
     )]
     pub unit: LengthUnit,
     /// The estimator: euler_ekf, so3_ekf or right_invariant_ekf; where not given, the log's, or else euler_ekf
-    #[arg(long, value_name = "NAME", value_parser = NameParser::<EstimatorName>::new())]
+    #[arg(long, value_name = "NAME", value_parser = RegistryParser::<EstimatorName>::default())]
     pub estimator: Option<EstimatorName>,
     /// Keep out feature measurements less likely than this: the part of good ones that pass, such as 0.999,
     /// or none to keep all; where not given, as the log says, or else none

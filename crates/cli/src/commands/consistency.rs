@@ -34,14 +34,15 @@ fn judge(
     interrupt: &Interrupt,
     answer: &mut Answer,
 ) -> Result<(), Failure> {
-    let estimators: &[EstimatorName] = match args.estimators.as_slice() {
-        [] => EstimatorName::ALL,
-        some => some,
+    let all = registry.estimators().all().iter();
+    let estimators: Vec<EstimatorName> = match args.estimators.as_slice() {
+        [] => all.map(|entry| entry.name).collect(),
+        some => some.to_vec(),
     };
     let plan = ConsistencyPlan::load_with(
         &args.config,
         &args.selection.selection(),
-        estimators,
+        &estimators,
         registry,
     )?;
     answer.warn(&plan.warnings());
@@ -118,6 +119,7 @@ fn curves<'a>(
         Some(ConsistencyCurve {
             method: Method::new(cell.planner, cell.look.clone()),
             estimator: cell.estimator,
+            estimator_look: cell.estimator_look.clone(),
             steps: means
                 .map(|step| BandedMean {
                     step: step.step,

@@ -10,6 +10,7 @@ use adslam_diagnostics::{Failure, InputError, Interrupt};
 use adslam_experiment::run::refuse_part_of_run;
 use adslam_record::log::{FilterChoice, ReplaySummary, TailPolicy, Trajectory, filter_log};
 use adslam_record::{AtomicFile, prepare_folder};
+use adslam_scenario::registry::Registry;
 use indicatif::ProgressBar;
 
 use crate::answer::Answer;
@@ -22,12 +23,19 @@ use crate::{FilterArgs, progress};
 ///
 /// # Errors
 /// Bad input, a covariance that breaks down, a file that cannot be written, or an interruption.
-pub fn filter(args: &FilterArgs, interrupt: &Interrupt) -> Result<(), Failure> {
-    Answer::give(args.json, |answer| filter_all(args, interrupt, answer))
+pub fn filter(
+    args: &FilterArgs,
+    registry: &Registry,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
+    Answer::give(args.json, |answer| {
+        filter_all(args, registry, interrupt, answer)
+    })
 }
 
 fn filter_all(
     args: &FilterArgs,
+    registry: &Registry,
     interrupt: &Interrupt,
     answer: &mut Answer,
 ) -> Result<(), Failure> {
@@ -54,7 +62,15 @@ fn filter_all(
         bar.set_message(format!("{steps} steps filtered"));
         Ok(())
     };
-    let result = filter_log(reader, &path, choice, policy, interrupt, &mut each);
+    let result = filter_log(
+        reader,
+        &path,
+        choice,
+        registry.estimators(),
+        policy,
+        interrupt,
+        &mut each,
+    );
     bar.finish_and_clear();
     let summary = match result {
         // Whoever reads the estimates has seen enough, as in `adslam filter … --out - | head`.

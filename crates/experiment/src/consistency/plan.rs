@@ -71,11 +71,14 @@ impl ConsistencyPlan {
         let mut points = Vec::new();
         let setups = Setup::of_all(config.experiments.iter().map(|plan| &plan.scenario))?;
         for (plan, setup) in config.experiments.iter().zip(setups) {
-            points.extend(each_once.iter().map(|&estimator| Point {
-                plan: plan.clone(),
-                estimator,
-                setup: setup.with_estimator(estimator),
-            }));
+            for &estimator in &each_once {
+                let setup = setup.with_estimator(estimator);
+                points.push(Point {
+                    plan: plan.clone(),
+                    estimator,
+                    setup: setup.map_err(|unknown| InputError::about_file(path, unknown))?,
+                });
+            }
         }
         Ok(Self {
             title: config.title,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use adslam_diagnostics::Failure;
-use adslam_names::{EstimatorName, PlannerLook, PlannerName};
+use adslam_names::{EstimatorName, Look, PlannerName};
 use adslam_record::{AtomicFile, Column, ColumnKind, TableFile};
 use adslam_simulation::RunSummary;
 use rayon::prelude::*;
@@ -42,7 +42,10 @@ pub struct ConsistencyCell {
     pub planner: PlannerName,
     /// What it looks like, where its name does not say it.
     #[serde(skip)]
-    pub look: Option<PlannerLook>,
+    pub look: Option<Look>,
+    /// What the estimator looks like.
+    #[serde(skip)]
+    pub estimator_look: Look,
     /// Runs that were finished.
     pub runs: usize,
     /// Mean over runs and steps of eq. (11), radians and cm together; absent, as the others, without runs.
@@ -79,6 +82,7 @@ impl ConsistencyCell {
             estimator,
             planner,
             look: None,
+            estimator_look: Look::of_estimator(estimator),
             runs: runs.len(),
             pose_error: mean(|run| run.pose_error_mean),
             drift_floor: mean(|run| run.drift_floor_mean),
@@ -127,6 +131,7 @@ impl ConsistencyResults {
             let registry = cell.point.setup.scenario.registry();
             ConsistencyCell {
                 look: registry.look(cell.planner),
+                estimator_look: cell.point.setup.model.estimator.look.clone(),
                 ..ConsistencyCell::of(label, cell.point.estimator, cell.planner, &done)
             }
         });

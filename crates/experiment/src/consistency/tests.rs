@@ -94,7 +94,7 @@ fn a_feature_that_is_wrong_is_counted() {
         }
         let done: Vec<&ConsistencyRecord> = runs.iter().collect();
         let planner = PlannerName::LOCAL;
-        ConsistencyCell::of("a", EstimatorName::EulerEkf, planner, &done)
+        ConsistencyCell::of("a", EstimatorName::EULER_EKF, planner, &done)
     };
     assert_eq!(results(1.0).features_outside(), 0);
     let cell = results(4.0);

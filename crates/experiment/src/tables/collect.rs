@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use adslam_diagnostics::Failure;
-use adslam_names::{PlannerLook, PlannerName};
+use adslam_names::{Look, PlannerName};
 use adslam_record::RunHistory;
 use adslam_scenario::config::PublishedScenario;
 use adslam_simulation::RunSummary;
@@ -68,7 +68,7 @@ pub struct PlannerRuns {
     /// Which planner.
     pub planner: PlannerName,
     /// What it looks like, where its name does not say it.
-    pub look: Option<PlannerLook>,
+    pub look: Option<Look>,
     /// Its runs.
     pub runs: Vec<RunSummary>,
 }

@@ -13,7 +13,7 @@ pub use action_runs::ActionRuns;
 pub use drawing::Candidate;
 pub use record::HistoryRecorder;
 
-use adslam_names::{PlannerLook, PlannerName};
+use adslam_names::{Look, PlannerName};
 
 /// What `format` says in a history file.
 pub const HISTORY_FORMAT: &str = "adslam-history";
@@ -43,7 +43,7 @@ pub struct RunHistory {
     pub planner: PlannerName,
     /// What it looks like; absent where all know it by its name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub planner_look: Option<PlannerLook>,
+    pub planner_look: Option<Look>,
     /// The seed of all noise.
     pub seed: u64,
     /// Features nearer than this are not seen, cm.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use adslam_diagnostics::Failure;
 use adslam_models::{Control, FeatureId, Pose};
-use adslam_names::{PlannerLook, PlannerName};
+use adslam_names::{Look, PlannerName};
 use adslam_simulation::{EpisodeModel, StepView};
 use nalgebra::{Point3, Vector3};
 
@@ -56,7 +56,7 @@ impl HistoryRecorder {
 
     /// Shown as this planner looks, where its name does not say it.
     #[must_use]
-    pub fn with_look(mut self, look: Option<PlannerLook>) -> Self {
+    pub fn with_look(mut self, look: Option<Look>) -> Self {
         self.history.planner_look = look;
         self
     }

@@ -4,7 +4,7 @@ use std::io::BufRead;
 
 use adslam_agent::GateProbability;
 use adslam_diagnostics::InputError;
-use adslam_names::{EstimatorName, LengthUnit, Named};
+use adslam_names::{LengthUnit, Named};
 
 use super::format::{FORMAT, LogHeader, VERSION};
 use super::lines::Lines;
@@ -121,17 +121,11 @@ fn check_pose_covariance<R: BufRead>(
     Ok(())
 }
 
-/// Whether there is such a filter.
+/// Whether there can be such a filter; whether there is one of its name is known where it is built.
 fn check_filter<R: BufRead>(header: &LogHeader, lines: &Lines<R>) -> Result<(), InputError> {
     let Some(filter) = &header.filter else {
         return Ok(());
     };
-    if let Some(name) = &filter.estimator
-        && let Err(reason) = EstimatorName::named(name)
-    {
-        let what = format!("has a filter that there is not: {reason}");
-        return Err(lines.error(&what, "or leave filter out, and say it with --estimator"));
-    }
     if let Some(probability) = filter.gate_probability
         && GateProbability::new(probability).is_none()
     {

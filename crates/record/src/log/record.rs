@@ -80,7 +80,7 @@ impl LogRecorder {
             time: None,
             truth: Some(truth(view)),
             filter: Some(LogFilter {
-                estimator: Some(model.estimator.as_str().to_owned()),
+                estimator: Some(model.estimator.name.to_string()),
                 gate_probability: model.gate_probability.map(GateProbability::get),
             }),
             source: Some(self.source.clone()),

@@ -3,14 +3,14 @@
 use std::io::BufRead;
 use std::path::Path;
 
-use adslam_agent::{Agent, GateProbability, StepInput, build_estimator};
+use adslam_agent::{Agent, Estimators, GateProbability, StepInput};
 use adslam_diagnostics::{Failure, InputError, Interrupt};
 use adslam_estimator::{
     Belief, EstimatorError, FeatureMeasurement, FilterNoise, Measurements, PairMeasurement,
     Parallelism, StructureMeasurements,
 };
 use adslam_models::{Control, FeatureId};
-use adslam_names::{EstimatorName, Named};
+use adslam_names::EstimatorName;
 use adslam_simulation::{StepMetrics, measure_step};
 use nalgebra::Vector3;
 
@@ -52,16 +52,13 @@ pub enum GateChoice {
 }
 
 impl FilterChoice {
-    /// With nothing left to the log.
-    fn resolved(self, recorded: Option<&LogFilter>) -> (EstimatorName, Option<GateProbability>) {
-        let estimator = || EstimatorName::named(recorded?.estimator.as_deref()?).ok();
-        let probability = || GateProbability::new(recorded?.gate_probability?);
-        let gate = match self.gate {
-            GateChoice::AsRecorded => probability(),
+    /// Its gate, with nothing left to the log.
+    fn gate(self, recorded: Option<&LogFilter>) -> Option<GateProbability> {
+        match self.gate {
+            GateChoice::AsRecorded => GateProbability::new(recorded?.gate_probability?),
             GateChoice::All => None,
             GateChoice::Probability(probability) => Some(probability),
-        };
-        (self.estimator.or_else(estimator).unwrap_or_default(), gate)
+        }
     }
 }
 
@@ -75,11 +72,16 @@ pub enum TailPolicy {
 }
 
 impl<R: BufRead> Replay<R> {
-    /// Reads the header and starts the filter from it. `path` is for messages.
+    /// Reads the header and starts one of the `estimators` from it. `path` is for messages.
     ///
     /// # Errors
-    /// A header that cannot be used.
-    pub fn new(reader: R, path: &Path, choice: FilterChoice) -> Result<Self, InputError> {
+    /// A header that cannot be used, or an estimator that is not among them.
+    pub fn new(
+        reader: R,
+        path: &Path,
+        choice: FilterChoice,
+        estimators: &Estimators,
+    ) -> Result<Self, InputError> {
         let log = LogReader::new(reader, path)?;
         let about = |what: &str, error: EstimatorError| {
             let message = format!(
@@ -93,8 +95,21 @@ impl<R: BufRead> Replay<R> {
         };
         // One log is one run, so the threads are free for its steps.
         let noise = log.header().noise.into();
-        let (name, probability) = choice.resolved(log.header().filter.as_ref());
-        let estimator = build_estimator(name, noise, probability, Parallelism::Rayon)
+        let recorded = log.header().filter.as_ref();
+        let probability = choice.gate(recorded);
+        let named = recorded.and_then(|filter| filter.estimator.as_deref());
+        let entry = match (&choice.estimator, named) {
+            (Some(chosen), _) => estimators.get(chosen.as_str()),
+            (None, Some(named)) => estimators.get(named),
+            (None, None) => estimators.get(EstimatorName::default().as_str()),
+        };
+        let entry = entry.map_err(|reason| {
+            let what = format!("has a filter that there is not: {reason}");
+            log.error(&what, "or leave filter out, and say it with --estimator")
+        })?;
+        let name = entry.name;
+        let estimator = entry
+            .build(noise, probability, Parallelism::Rayon)
             .map_err(|error| about("noise", error))?;
         let belief = log
             .header()
@@ -221,7 +236,7 @@ impl<R: BufRead> Replay<R> {
     }
 }
 
-/// Filters the log in `reader` and hands on a line of estimates for each step, as it comes. `path` is for
+/// Filters the log in `reader` with one of the `estimators` and hands on a line of estimates for each step, as it comes. `path` is for
 /// messages.
 ///
 /// # Errors
@@ -231,11 +246,12 @@ pub fn filter_log(
     reader: impl BufRead,
     path: &Path,
     choice: FilterChoice,
+    estimators: &Estimators,
     policy: TailPolicy,
     interrupt: &Interrupt,
     each: &mut dyn FnMut(&EstimateLine) -> Result<(), Failure>,
 ) -> Result<ReplaySummary, Failure> {
-    let mut replay = Replay::new(reader, path, choice)?;
+    let mut replay = Replay::new(reader, path, choice, estimators)?;
     let mut sums = SummingUp::new(replay.log.header(), replay.filter);
     sums.add_metrics(replay.metrics.as_ref());
     loop {

@@ -1,4 +1,4 @@
-//! What a program has to choose from, by name: the planners, ours and those of its own.
+//! What a program has to choose from, by name: planners and estimators, ours and those of its own.
 
 mod planner;
 mod standard;
@@ -7,18 +7,20 @@ mod viewpoints;
 use std::fmt;
 use std::sync::Arc;
 
+use adslam_agent::{EstimatorEntry, EstimatorNameTaken, Estimators};
 use adslam_diagnostics::InputError;
 use adslam_documents::{Document, unknown_choice};
-use adslam_names::{PlannerLook, PlannerName, UnknownName};
+use adslam_names::{EstimatorName, Look, PlannerName, UnknownName};
 use serde_json::{Map, Value, json};
 use thiserror::Error;
 
 pub use planner::{PlannerContext, PlannerEntry};
 
-/// The planners that files, commands and results know. To copy it is cheap.
+/// The planners and estimators that files, commands and results know. To copy it is cheap.
 #[derive(Clone)]
 pub struct Registry {
     planners: Arc<Vec<PlannerEntry>>,
+    estimators: Estimators,
 }
 
 /// Two things were to have the same name.
@@ -32,6 +34,7 @@ impl Registry {
     pub fn standard() -> Self {
         Self {
             planners: Arc::new(standard::planners()),
+            estimators: Estimators::standard(),
         }
     }
 
@@ -45,6 +48,23 @@ impl Registry {
         }
         Arc::make_mut(&mut self.planners).push(entry);
         Ok(self)
+    }
+
+    /// With one more estimator.
+    ///
+    /// # Errors
+    /// Where another has its name.
+    pub fn with_estimator(self, entry: EstimatorEntry) -> Result<Self, EstimatorNameTaken> {
+        Ok(Self {
+            estimators: self.estimators.with(entry)?,
+            ..self
+        })
+    }
+
+    /// The estimators.
+    #[must_use]
+    pub fn estimators(&self) -> &Estimators {
+        &self.estimators
     }
 
     /// All planners, the paper's first.
@@ -82,9 +102,9 @@ impl Registry {
 
     /// What a planner looks like in results; none for the paper's, whose look everyone knows.
     #[must_use]
-    pub fn look(&self, name: PlannerName) -> Option<PlannerLook> {
+    pub fn look(&self, name: PlannerName) -> Option<Look> {
         let look = self.planner(name).ok()?.look.clone();
-        (look != PlannerLook::of(name)).then_some(look)
+        (look != Look::of_planner(name)).then_some(look)
     }
 
     /// Refuses the planner `name` if there is none of that name; `at` is an error where it stands.
@@ -101,6 +121,20 @@ impl Registry {
             .iter()
             .map(|entry| entry.name.as_str())
             .collect();
+        Err(unknown_choice(at(), name.as_str(), &known))
+    }
+
+    /// Refuses the estimator `name` if there is none of that name; `at` is an error where it stands.
+    pub(crate) fn check_estimator(
+        &self,
+        name: EstimatorName,
+        at: impl FnOnce() -> InputError,
+    ) -> Result<(), InputError> {
+        if self.estimators.get(name.as_str()).is_ok() {
+            return Ok(());
+        }
+        let known = self.estimators.all().iter();
+        let known: Vec<&str> = known.map(|entry| entry.name.as_str()).collect();
         Err(unknown_choice(at(), name.as_str(), &known))
     }
 
@@ -130,7 +164,18 @@ impl Registry {
             return;
         };
         if let Some(name) = definitions.get_mut("PlannerName") {
-            *name = self.schema_of_names();
+            let planners = self.planners.iter();
+            *name = schema_of_names(
+                "The planners, in the order of the paper's tables.",
+                planners.map(|entry| (entry.name.as_str(), entry.meaning.as_str())),
+            );
+        }
+        if let Some(name) = definitions.get_mut("EstimatorName") {
+            let estimators = self.estimators.all().iter();
+            *name = schema_of_names(
+                "The estimators. They differ in what they take for the error of a state.",
+                estimators.map(|entry| (entry.name.as_str(), entry.meaning.as_str())),
+            );
         }
         for entry in self.planners.iter() {
             let Some(keys) = &entry.keys else { continue };
@@ -148,30 +193,19 @@ impl Registry {
             }
         }
     }
+}
 
-    fn schema_of_names(&self) -> Value {
-        let names: Vec<&str> = self
-            .planners
-            .iter()
-            .map(|entry| entry.name.as_str())
-            .collect();
-        let meanings: Vec<&str> = self
-            .planners
-            .iter()
-            .map(|entry| entry.meaning.as_str())
-            .collect();
-        let mut schema = Map::new();
-        let mut insert = |key: &str, value: Value| schema.insert(key.to_owned(), value);
-        insert(
-            "description",
-            json!("The planners, in the order of the paper's tables."),
-        );
-        insert("type", json!("string"));
-        insert("enum", json!(names));
-        // Taplo's own key for what each word means.
-        insert("x-taplo", json!({ "docs": { "enumValues": meanings } }));
-        Value::Object(schema)
-    }
+/// The schema of a name that is one of these, each with what it means.
+fn schema_of_names<'a>(description: &str, all: impl Iterator<Item = (&'a str, &'a str)>) -> Value {
+    let (names, meanings): (Vec<&str>, Vec<&str>) = all.unzip();
+    let mut schema = Map::new();
+    let mut insert = |key: &str, value: Value| schema.insert(key.to_owned(), value);
+    insert("description", json!(description));
+    insert("type", json!("string"));
+    insert("enum", json!(names));
+    // Taplo's own key for what each word means.
+    insert("x-taplo", json!({ "docs": { "enumValues": meanings } }));
+    Value::Object(schema)
 }
 
 impl Default for Registry {
@@ -183,10 +217,14 @@ impl Default for Registry {
 /// By the names of what there is: whether two programs do the same under them nobody can tell.
 impl PartialEq for Registry {
     fn eq(&self, other: &Self) -> bool {
-        let names = |registry: &Self| -> Vec<PlannerName> {
+        let planners = |registry: &Self| -> Vec<PlannerName> {
             registry.planners.iter().map(|entry| entry.name).collect()
         };
-        names(self) == names(other)
+        let estimators = |registry: &Self| -> Vec<EstimatorName> {
+            let all = registry.estimators.all().iter();
+            all.map(|entry| entry.name).collect()
+        };
+        planners(self) == planners(other) && estimators(self) == estimators(other)
     }
 }
 

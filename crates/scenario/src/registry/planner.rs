@@ -5,7 +5,7 @@ use std::sync::Arc;
 use adslam_diagnostics::InputError;
 use adslam_documents::{Document, root_schema};
 use adslam_estimator::Belief;
-use adslam_names::{PlannerLook, PlannerName};
+use adslam_names::{Look, PlannerName};
 use adslam_planning::{Goals, Planner, PlanningError, PlanningModel};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -24,7 +24,7 @@ pub struct PlannerEntry {
     /// What it is called in files and on the command line.
     pub name: PlannerName,
     /// What it looks like in results.
-    pub look: PlannerLook,
+    pub look: Look,
     /// What it does, in a sentence: editors show it.
     pub meaning: String,
     pub(super) keys: Option<Keys>,
@@ -76,7 +76,7 @@ impl PlannerEntry {
     ) -> Self {
         Self {
             name,
-            look: PlannerLook::of(name),
+            look: Look::of_planner(name),
             meaning: String::new(),
             keys: None,
             build: Arc::new(build),
@@ -125,7 +125,7 @@ impl PlannerEntry {
     #[must_use]
     pub fn shown_as(self, label: &str, colour: [u8; 3]) -> Self {
         Self {
-            look: PlannerLook::new(label, colour),
+            look: Look::new(label, colour),
             ..self
         }
     }
