@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use adslam_agent::Estimators;
 use adslam_diagnostics::Interrupt;
-use adslam_names::{EstimatorName, Named};
+use adslam_names::EstimatorName;
 use adslam_record::log::{FilterChoice, TailPolicy, filter_log};
 
 fn main() -> Result<(), Box<dyn Error>> {

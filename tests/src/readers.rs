@@ -11,7 +11,7 @@ use std::sync::Arc;
 use adslam_agent::{Estimators, GateProbability};
 use adslam_diagnostics::{Failure, InputError};
 use adslam_experiment::sweep::SweepPlan;
-use adslam_names::{EstimatorName, LengthUnit, Named};
+use adslam_names::{EstimatorName, LengthUnit};
 use adslam_record::RunHistory;
 use adslam_record::log::{EstimateLine, FilterChoice, GateChoice, Replay};
 use adslam_scenario::config::{Config, Published};

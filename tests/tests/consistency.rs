@@ -9,7 +9,7 @@
 use adslam_diagnostics::Interrupt;
 use adslam_experiment::consistency::{ConsistencyRecord, Judgement, Measure, Verdict};
 use adslam_experiment::run::simulate;
-use adslam_names::{EstimatorName, Named, PlannerName};
+use adslam_names::{EstimatorName, PlannerName};
 use adslam_setup::Setup;
 use adslam_tests::{mean, setup, summaries};
 

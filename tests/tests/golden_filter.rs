@@ -9,6 +9,7 @@
 use std::fs::{self, File};
 use std::io::BufReader;
 
+use adslam_agent::Estimators;
 use adslam_diagnostics::Interrupt;
 use adslam_record::AtomicFile;
 use adslam_record::log::{EstimateLine, FilterChoice, TailPolicy, filter_log};
@@ -44,6 +45,7 @@ fn the_log_gives_the_golden_estimates() {
         reader,
         &log,
         FilterChoice::default(),
+        &Estimators::standard(),
         policy,
         &Interrupt::new(),
         &mut |line| out.add_json_line(line),

@@ -11,6 +11,7 @@ use std::fs::{self, File};
 use std::io::BufReader;
 use std::sync::Arc;
 
+use adslam_agent::Estimators;
 use adslam_estimator::{Belief, DirectTrace, FilterNoise, PlannedMeasurement, PosteriorTrace};
 use adslam_models::{Control, FeatureId, Pose, Sensor, predicted_pose};
 use adslam_planning::{features_seen_from, features_seen_in_pose};
@@ -77,6 +78,7 @@ fn belief_before(step: u64) -> (Belief, FilterNoise) {
         BufReader::new(File::open(&path).unwrap()),
         &path,
         FilterChoice::default(),
+        &Estimators::standard(),
     )
     .unwrap();
     for expected in 2..step {

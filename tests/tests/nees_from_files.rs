@@ -13,7 +13,7 @@ use std::path::Path;
 
 use adslam_diagnostics::Interrupt;
 use adslam_experiment::run::{RunRecorder, RunReport, simulate};
-use adslam_names::{EstimatorName, LengthUnit, Named, PlannerName};
+use adslam_names::{EstimatorName, LengthUnit, PlannerName};
 use adslam_tests::setup;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
@@ -107,6 +107,7 @@ fn error(estimator: EstimatorName, truth: &Vector6<f64>, estimate: &Vector6<f64>
         }
         EstimatorName::SO3_EKF => (turned, of_position),
         EstimatorName::RIGHT_INVARIANT_EKF => (turned, inverse_jacobian(&theta) * of_position),
+        other => unreachable!("{other} is none of ours"),
     };
     let mut error = Vector6::zeros();
     error.fixed_rows_mut::<3>(0).copy_from(&angles);

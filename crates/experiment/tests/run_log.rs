@@ -8,7 +8,7 @@ use std::path::Path;
 use adslam_agent::Estimators;
 use adslam_diagnostics::{Failure, Interrupt};
 use adslam_experiment::run::simulate;
-use adslam_names::{EstimatorName, LengthUnit, Named, PlannerName};
+use adslam_names::{EstimatorName, LengthUnit, PlannerName};
 use adslam_record::Observer;
 use adslam_record::log::{
     EstimateErrors, EstimateLine, FilterChoice, GateChoice, LogReader, LogRecorder, TailPolicy,

@@ -59,7 +59,6 @@ impl UnknownName {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::EstimatorName;
     use crate::LengthUnit;
 
     fn go_there_and_back<T: Named + PartialEq + std::fmt::Debug>() {

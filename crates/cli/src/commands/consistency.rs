@@ -7,7 +7,7 @@ use adslam_experiment::consistency::{
     CHI_SQUARED_CONFIDENCE, ConsistencyCell, ConsistencyPlan, ConsistencyResults, Measure, Verdict,
 };
 use adslam_figures::{BandedMean, ConsistencyCurve, ConsistencyCurves, Method};
-use adslam_names::{EstimatorName, Named};
+use adslam_names::EstimatorName;
 use adslam_record::prepare_folder;
 use adslam_scenario::registry::Registry;
 

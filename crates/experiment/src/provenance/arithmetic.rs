@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use adslam_diagnostics::{Failure, Interrupt};
-use adslam_names::{EstimatorName, Named, PlannerName};
+use adslam_names::{EstimatorName, PlannerName};
 use adslam_record::Observer;
 use adslam_scenario::Scenario;
 use adslam_setup::Setup;
