@@ -54,7 +54,7 @@ pub(crate) trait Registered: Copy + Send + Sync + 'static {
 
 impl Registered for PlannerName {
     fn named(registry: &Registry, text: &str) -> Result<Self, UnknownName> {
-        registry.planner_named(text)
+        registry.planner_named(text).map(|entry| entry.name)
     }
 
     fn all(registry: &Registry) -> Vec<String> {

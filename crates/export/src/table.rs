@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use adslam_diagnostics::Failure;
-use adslam_record::{AtomicFile, HistoryStep, RunHistory};
+use adslam_record::{AtomicFile, HistoryStep, POSE_COMPONENTS, RunHistory};
 use serde::Serialize;
 
 use crate::failed;
@@ -22,16 +22,6 @@ struct Row {
     /// Whether the robot sees the feature; empty for the pose.
     visible: Option<u8>,
 }
-
-/// The components of the pose, with their units.
-const POSE: [(&str, &str); 6] = [
-    ("roll", "rad"),
-    ("pitch", "rad"),
-    ("yaw", "rad"),
-    ("x", "cm"),
-    ("y", "cm"),
-    ("z", "cm"),
-];
 
 /// The components of a feature, with the places of their variances in a covariance.
 const FEATURE: [(&str, usize); 3] = [("x", 0), ("y", 3), ("z", 5)];
@@ -55,7 +45,8 @@ pub fn write_csv(history: &RunHistory, out: &Path) -> Result<(), Failure> {
 }
 
 fn pose_rows(step: &HistoryStep, number: usize) -> impl Iterator<Item = Row> {
-    POSE.iter()
+    POSE_COMPONENTS
+        .iter()
         .enumerate()
         .map(move |(i, &(component, unit))| Row {
             step: number,

@@ -37,6 +37,7 @@ pub use history::{
 };
 pub use observer::{NoObserver, Observer};
 pub use table::{
-    Column, ColumnKind, FeaturesFile, LastFeatures, PoseCovarianceFile, StepsFile, TableFile,
+    Column, ColumnKind, FeaturesFile, LastFeatures, POSE_COMPONENTS, PoseCovarianceFile, StepsFile,
+    TableFile,
 };
 pub use trajectory::{TumFile, TumTime};

@@ -10,6 +10,6 @@ mod table_file;
 
 pub use column::{Column, ColumnKind};
 pub use features::{FeaturesFile, LastFeatures};
-pub use pose_covariance::PoseCovarianceFile;
+pub use pose_covariance::{POSE_COMPONENTS, PoseCovarianceFile};
 pub use steps::StepsFile;
 pub use table_file::TableFile;

@@ -10,7 +10,7 @@ use adslam_simulation::StepView;
 use crate::AtomicFile;
 
 /// The components of the pose, and the unit of each.
-const COMPONENTS: [(&str, &str); POSE_DIM] = [
+pub const POSE_COMPONENTS: [(&str, &str); POSE_DIM] = [
     ("roll", "rad"),
     ("pitch", "rad"),
     ("yaw", "rad"),
@@ -75,7 +75,7 @@ fn upper_triangle() -> impl Iterator<Item = (usize, usize)> {
 
 /// The head of a column, such as `roll_x_rad_times_cm`, or `x_y_cm2`.
 fn head(i: usize, j: usize) -> String {
-    let ((one, its_unit), (other, unit)) = (COMPONENTS[i], COMPONENTS[j]);
+    let ((one, its_unit), (other, unit)) = (POSE_COMPONENTS[i], POSE_COMPONENTS[j]);
     if unit == its_unit {
         format!("{one}_{other}_{unit}2")
     } else {

@@ -78,23 +78,17 @@ impl Registry {
     /// # Errors
     /// Where there is none, with the names that there are.
     pub fn planner(&self, name: PlannerName) -> Result<&PlannerEntry, UnknownName> {
-        let found = self.planners.iter().find(|entry| entry.name == name);
-        found.ok_or_else(|| {
-            let known = self.planners.iter().map(|entry| entry.name.to_string());
-            UnknownName::new("planner", name.as_str(), known.collect())
-        })
+        self.planner_named(name.as_str())
     }
 
-    /// The name that `text` is.
+    /// The planner whose name is `text`.
     ///
     /// # Errors
-    /// Where nothing is called so, with the names that there are.
-    pub fn planner_named(&self, text: &str) -> Result<PlannerName, UnknownName> {
-        let found = self
-            .planners
-            .iter()
-            .find(|entry| entry.name.as_str() == text);
-        found.map(|entry| entry.name).ok_or_else(|| {
+    /// As [`Registry::planner`].
+    pub fn planner_named(&self, text: &str) -> Result<&PlannerEntry, UnknownName> {
+        let mut planners = self.planners.iter();
+        let found = planners.find(|entry| entry.name.as_str() == text);
+        found.ok_or_else(|| {
             let known = self.planners.iter().map(|entry| entry.name.to_string());
             UnknownName::new("planner", text, known.collect())
         })
@@ -113,15 +107,8 @@ impl Registry {
         name: PlannerName,
         at: impl FnOnce() -> InputError,
     ) -> Result<(), InputError> {
-        if self.planner(name).is_ok() {
-            return Ok(());
-        }
-        let known: Vec<&str> = self
-            .planners
-            .iter()
-            .map(|entry| entry.name.as_str())
-            .collect();
-        Err(unknown_choice(at(), name.as_str(), &known))
+        let known = self.planners.iter().map(|entry| entry.name.as_str());
+        refuse_unknown(name.as_str(), known, at)
     }
 
     /// Refuses the estimator `name` if there is none of that name; `at` is an error where it stands.
@@ -130,12 +117,8 @@ impl Registry {
         name: EstimatorName,
         at: impl FnOnce() -> InputError,
     ) -> Result<(), InputError> {
-        if self.estimators.get(name.as_str()).is_ok() {
-            return Ok(());
-        }
         let known = self.estimators.all().iter();
-        let known: Vec<&str> = known.map(|entry| entry.name.as_str()).collect();
-        Err(unknown_choice(at(), name.as_str(), &known))
+        refuse_unknown(name.as_str(), known.map(|entry| entry.name.as_str()), at)
     }
 
     /// The paths of the tables that planners have for keys of their own.
@@ -193,6 +176,19 @@ impl Registry {
             }
         }
     }
+}
+
+/// Refuses a name that is not `known`; `at` is an error where it stands.
+fn refuse_unknown<'a>(
+    name: &str,
+    known: impl Iterator<Item = &'a str>,
+    at: impl FnOnce() -> InputError,
+) -> Result<(), InputError> {
+    let known: Vec<&str> = known.collect();
+    if known.contains(&name) {
+        return Ok(());
+    }
+    Err(unknown_choice(at(), name, &known))
 }
 
 /// The schema of a name that is one of these, each with what it means.
